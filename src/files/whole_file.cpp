@@ -29,7 +29,7 @@ std::optional<std::string> text_within(const fs::path& file, std::uint64_t most)
 
 std::optional<std::string> text_of_file(const fs::path& file, std::uint64_t most) {
   std::error_code error;
-  if (!fs::is_regular_file(file, error) || error) return std::nullopt;
+  if (!fs::is_regular_file(file, error) || error || fs::file_size(file, error) > most) return std::nullopt;
   return text_within(file, most);
 }
 

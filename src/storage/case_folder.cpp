@@ -34,7 +34,7 @@ PathInFolder CaseFolder::file_of(const std::string& name) const {
 }
 
 std::string CaseFolder::loose_bytes(const std::string& name) const {
-  return text_of_file(file_of(name).path()).value_or("");
+  return text_of_file(file_of(name).path(), most_bytes_of_a_case).value_or("");
 }
 
 /// The first sound copy: loose, or in a segment known, or in one that has come since.
@@ -43,8 +43,8 @@ std::string CaseFolder::sound_bytes(const std::string& name) const {
   if (!content_of_case(bytes).empty()) return bytes;
   const std::lock_guard lock(mutex_);
   for (int look = 0; look < 2; ++look) {
-    for (std::string& copy : segments_.bytes_of(name))
-      if (!content_of_case(copy).empty()) return std::move(copy);
+    bytes = segments_.find(name, [](const std::string& copy) { return !content_of_case(copy).empty(); });
+    if (!bytes.empty()) return bytes;
     segments_.refresh();
   }
   return "";
@@ -123,6 +123,8 @@ std::size_t CaseFolder::pack(std::size_t at_least) const {
   const auto write = [&] {
     if (segment.empty()) return;
     segments_.write(segment);
+    if (bytes.size() > most_bytes_of_a_case)
+      throw InputError(fmt::format("{}: more than 1 GiB is not kept of a run; record less", file.path().string()));
     for (const auto& [name, content] : segment) remove(name);
     packed += segment.size();
     segment.clear(), bytes = 0;

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view segment_signature = "vibrosow segment 1 ";
 constexpr std::size_t segment_hash_digits = 16, segment_head_size = segment_signature.size() + segment_hash_digits + 1,
                       bytes_of_place = 32;
+constexpr std::uint64_t most_cases = std::uint64_t{1} << 20;  // of a segment, which has some thousand
 
 std::uint64_t number_of(std::string_view digits) {
   std::uint64_t number = 0;
@@ -51,7 +52,7 @@ std::optional<std::string> numbers_of(const fs::path& file) {
   std::string head(segment_head_size, '\0'), numbers(8, '\0');
   if (error || !in.read(head.data(), segment_head_size) || !in.read(numbers.data(), 8)) return std::nullopt;
   const std::uint64_t count = number_at(numbers, 0);
-  if (count > size / bytes_of_place) return std::nullopt;
+  if (count > std::min(size / bytes_of_place, most_cases)) return std::nullopt;
   numbers.resize(8 + count * bytes_of_place);
   if (!in.read(numbers.data() + 8, static_cast<std::streamsize>(numbers.size() - 8))) return std::nullopt;
   if (head != head_of(numbers)) return std::nullopt;
@@ -64,7 +65,7 @@ void Segments::read(const fs::path& file) {
   const auto segment = static_cast<std::uint32_t>(files_.size());
   files_.push_back(file);
   const std::optional<std::string> numbers = numbers_of(file);
-  if (!numbers) return;
+  if (!numbers) return unreadable_.push_back(file.filename().string());
   for (std::size_t at = 8; at < numbers->size(); at += bytes_of_place)
     entries_.push_back({{number_at(*numbers, at), number_at(*numbers, at + 8)},
                         number_at(*numbers, at + 16),
@@ -80,30 +81,34 @@ void Segments::refresh() {
   std::ranges::sort(fresh);
   for (const fs::path& file : fresh) read(file);
   std::ranges::sort(entries_);
+  entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
 }
 
-std::vector<std::string> Segments::bytes_of(const std::string& name) const {
-  if (name.size() != 32) return {};
+std::string Segments::find(const std::string& name, const std::function<bool(const std::string&)>& is_wanted) const {
+  if (name.size() != 32) return "";
   const Key key = {number_of(name.substr(0, 16)), number_of(name.substr(16))};
-  std::vector<std::string> copies;
-  for (auto it = std::ranges::lower_bound(entries_, key, {}, &IndexEntry::key); it != entries_.end() && it->key == key;
-       ++it) {
+  auto it = std::ranges::lower_bound(entries_, key, {}, &IndexEntry::key);
+  for (int copy = 0; copy < most_copies && it != entries_.end() && it->key == key; ++copy, ++it) {
     const IndexEntry& entry = *it;
     if (std::error_code none; !fs::is_regular_file(files_[entry.segment], none)) continue;
     std::ifstream in(files_[entry.segment], std::ios::binary);
     std::error_code error;
     const std::uint64_t file_size = fs::file_size(files_[entry.segment], error);
-    if (error || entry.size > file_size || entry.at > file_size - entry.size) continue;
+    if (error || entry.size > std::min(file_size, most_bytes_of_a_case) || entry.at > file_size - entry.size) continue;
     std::string bytes(entry.size, '\0');
     in.seekg(static_cast<std::streamoff>(entry.at));
-    if (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) copies.push_back(std::move(bytes));
+    if (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) && is_wanted(bytes)) return bytes;
   }
-  return copies;
+  return "";
 }
 
 std::vector<std::string> Segments::names() const {
   std::vector<std::string> names;
-  for (const IndexEntry& entry : entries_) names.push_back(fmt::format("{:016x}{:016x}", entry.key[0], entry.key[1]));
+  const Key* last = nullptr;
+  for (const IndexEntry& entry : entries_) {
+    if (!last || *last != entry.key) names.push_back(fmt::format("{:016x}{:016x}", entry.key[0], entry.key[1]));
+    last = &entry.key;
+  }
   return names;
 }
 

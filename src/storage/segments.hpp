@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -11,6 +12,9 @@
 #include "files/atomic_file.hpp"
 
 namespace vibrosow {
+
+/// No case that is kept holds more bytes: a damaged or foreign file asks for no more memory.
+constexpr std::uint64_t most_bytes_of_a_case = std::uint64_t{1} << 30;
 
 /// Many cases in one file: a line "vibrosow segment 1 HASH", the number of cases, then for each its name, place and
 /// size, then their bytes one after the other. The hash is of the numbers; each case has its own. The file's name is
@@ -22,11 +26,16 @@ class Segments {
   /// Looks for segments that have come since. Not for several threads at a time.
   void refresh();
 
-  /// Every copy of a case, in the order of the segments' names; empty where there is none.
-  std::vector<std::string> bytes_of(const std::string& name) const;
+  /// Of a case the first copy that is wanted, in the order of the segments' names; empty where there is none. One is
+  /// read at a time, and of more than `most_copies`, as nobody writes them, no further ones.
+  static constexpr int most_copies = 16;
+  std::string find(const std::string& name, const std::function<bool(const std::string&)>& is_wanted) const;
 
   /// Names of all cases in them, in order.
   std::vector<std::string> names() const;
+
+  /// Names of segments that are damaged: what they held is missing.
+  const std::vector<std::string>& unreadable() const { return unreadable_; }
 
   /// Writes one segment of these cases, by name, down to the disk. Throws InputError where that fails.
   void write(const std::map<std::string, std::string>& cases) const;
@@ -46,6 +55,7 @@ class Segments {
   std::vector<std::filesystem::path> files_;  // sound and others
   std::set<std::string> known_;               // their names: a folder of many segments is looked through for each miss
   std::vector<IndexEntry> entries_;           // in order
+  std::vector<std::string> unreadable_;
 };
 
 }  // namespace vibrosow
