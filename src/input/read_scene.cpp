@@ -18,6 +18,7 @@
 #include "scene/printable.hpp"
 #include "scene/seed_lot.hpp"
 #include "scene/spaces.hpp"
+#include "vessel/hopper_images.hpp"
 
 namespace vibrosow {
 namespace {
@@ -262,11 +263,8 @@ Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& 
   if (auto hopper = root.table("hopper")) {
     scene.hopper = read_vessel(*hopper, "hopper", scene.lots, scene.space, seeder.drawings, &scene.tray, slice);
     scene.hopper->origin.x() = hopper->required_quantity("left", Dimension::length, -100, 100);
-    if (scene.tray.sides == Sides::periodic &&
-        !(scene.hopper->origin.x() >= 0 &&
-          scene.hopper->origin.x() + scene.hopper->length <= scene.tray.length * (1 + 1e-9)))
-      hopper->fail("left", "the hopper does not lie within the length of the periodic tray");
     scene.hopper->origin.y() = hopper->required_quantity("above", Dimension::length, 0, 100);
+    if (const auto fault = image_fault(scene)) hopper->fail(fault->key, fault->message);
   }
   const auto gives_seeds = [](const Vessel& vessel) { return vessel.fill || vessel.rain; };
   if (!gives_seeds(scene.tray) && !(scene.hopper && gives_seeds(*scene.hopper))) {

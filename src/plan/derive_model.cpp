@@ -10,6 +10,7 @@
 #include "scene/input_error.hpp"
 #include "scene/mixture.hpp"
 #include "scene/seed_lot.hpp"
+#include "vessel/hopper_images.hpp"
 #include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
@@ -27,6 +28,7 @@ void check_plane(const Vessel& vessel) {
 }
 
 void check_vessels(const Model& model) {
+  if (const auto fault = image_fault(model.scene)) throw InputError("hopper." + fault->key + ": " + fault->message);
   if (model.scene.space == Space::two_dimensional) {
     std::ranges::for_each(model.vessels, check_plane);
     return;
@@ -83,12 +85,14 @@ UnplannedModel model_without_step(const Scene& scene, const std::optional<Effect
   const std::vector<SeedSizes> sizes = sizes_of(scene.lots);
   model.smallest_radius = smallest_radius(scene.lots);
   model.largest_diameter = largest_diameter(scene.lots);
+  model.carried_beyond = carried_beyond(scene);
   const std::vector<SeedMaterial> materials = seed_materials(scene.contact, scene.lots);
   model.kinds = grain_kinds(scene.lots, materials, law);
   if (!model.effects.rotation || !scene.contact.rotation)
     for (GrainKind& kind : model.kinds) kind.inverse_inertia = 0;
   model.contacts = contact_parameters(scene.contact, surfaces, materials, law);
   model.loads = bed_loads(scene.lots, sizes, model.vessels, scene.run, scene.space);
+  for (Vessel& image : hopper_images(scene)) model.vessels.push_back(std::move(image));
   return {model, touching_kinds(scene.lots, sizes, model.kinds, law)};
 }
 

@@ -18,7 +18,7 @@ namespace vibrosow {
 /// takes a Model derives anything from its scene again.
 struct Model {
   Scene scene;                  // softness and steps of its accuracy level written out
-  std::vector<Vessel> vessels;  // of the scene, the tray first
+  std::vector<Vessel> vessels;  // of the scene, the tray first; behind them a hopper's images
   const LawTraits* law;
   EffectSet effects;
   const KernelSet* kernels;      // compiled for just these effects
@@ -26,6 +26,7 @@ struct Model {
   ContactParameters contacts;
   double smallest_radius;   // m, of any seed or disc there can be
   double largest_diameter;  // m, of any seed there can be; of a clump: of the circle that holds it
+  double carried_beyond;    // m, a side of a periodic tray: further on a grain goes on at the other one
   Eigen::Vector2d gravity{0, -standard_gravity};  // m/s2
   BedLoads loads;
   StepPlan step;

@@ -92,7 +92,7 @@ double map_interval(const MeasuringWindow& window) {
 }  // namespace
 
 Recording::Recording(const Model& model)
-    : vessels_(model.vessels),
+    : vessels_(model.vessels.begin(), model.vessels.begin() + (model.scene.hopper ? 2 : 1)),
       fields_(fields_of(model.scene)),
       frame_interval_(frame_interval(model)),
       frames_per_contacts_(frames_per_contacts(model)),

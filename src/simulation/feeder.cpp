@@ -44,22 +44,25 @@ struct Feeder::Inside {
   }
 };
 
-/// Those whose centre is in the vessel count (`SeedPlaces::counts_in`); others that reach into it, at an outlet or over
-/// its edge, are in the way.
+/// Those whose centre is in the vessel count (`SeedPlaces::counts_in`), or in an image of it; others that reach into
+/// it, at an outlet or over its edge, are in the way.
 Feeder::Inside Feeder::grains_inside(std::size_t v, const Walls& walls, const Grains& grains,
                                      const std::vector<char>& touching) const {
-  const Vessel& vessel = walls.vessels()[v];
-  const Pose pose = upright_frame(vessel, walls.poses()[v]);
   Inside inside;
   inside.is_3d = grains.is_3d;
-  for (std::size_t i = 0; i < grains.size(); ++i) {
-    const Eigen::Vector3d own = point_in_vessel(vessel, pose, grains.place(i));
-    const double reach = grains.kind(i).radius + model_.largest_diameter;
-    if (own.x() < -reach || own.x() > vessel.length + reach || own.y() < -reach || own.y() > vessel.height + reach)
-      continue;
-    if (grains.is_3d && (own.z() < -reach || own.z() > *vessel.depth + reach)) continue;
-    if (is_inside(vessel, pose, grains, i) && places_.counts_in(grains.place(i), v, walls)) ++inside.grains;
-    inside.add(vessel, own, grains.kind(i).radius, touching[i] != 0);
+  for (std::size_t image = v; image < walls.vessels().size(); ++image) {
+    const Vessel& vessel = walls.vessels()[image];
+    if (vessel.name != walls.vessels()[v].name) continue;
+    const Pose pose = upright_frame(vessel, walls.poses()[image]);
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      const Eigen::Vector3d own = point_in_vessel(vessel, pose, grains.place(i));
+      const double reach = grains.kind(i).radius + model_.largest_diameter;
+      if (own.x() < -reach || own.x() > vessel.length + reach || own.y() < -reach || own.y() > vessel.height + reach)
+        continue;
+      if (grains.is_3d && (own.z() < -reach || own.z() > *vessel.depth + reach)) continue;
+      if (is_inside(vessel, pose, grains, i) && places_.counts_in(grains.place(i), image, walls)) ++inside.grains;
+      inside.add(vessel, own, grains.kind(i).radius, touching[i] != 0);
+    }
   }
   return inside;
 }

@@ -9,6 +9,7 @@
 
 #include "scene/measuring_window.hpp"
 #include "scene/motion.hpp"
+#include "vessel/hopper_images.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
@@ -121,13 +122,18 @@ std::span<const OutflowEvent> Simulation::events_since(std::size_t first) const 
 }
 
 void Simulation::set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion) {
-  if (vessel >= model_.vessels.size()) throw std::invalid_argument("set_motion: there is no such vessel");
+  if (vessel > (model_.scene.hopper ? 1U : 0U)) throw std::invalid_argument("set_motion: there is no such vessel");
   const std::optional<VesselMotion>& old = state_.vessels.motion[vessel];
   if ((old && turns(*old)) || (motion && turns(*motion)))
     throw std::invalid_argument("set_motion: a motion that turns a vessel can neither begin nor end during a run");
-  const Eigen::Vector2d at = field_.walls().pose(vessel, state_.time).displacement;
-  field_.set_motion(vessel, motion, Eigen::Vector2d::Zero());
-  field_.set_motion(vessel, motion, at - field_.walls().pose(vessel, state_.time).displacement);
+  Scene driven = model_.scene;
+  (vessel == 0 ? driven.tray : *driven.hopper).motion = motion;
+  if (const auto fault = image_fault(driven)) throw std::invalid_argument("set_motion: " + fault->message);
+  for (std::size_t v = vessel; v < (vessel == 0 ? 1 : model_.vessels.size()); ++v) {  // a hopper with its images
+    const Eigen::Vector2d at = field_.walls().pose(v, state_.time).displacement;
+    field_.set_motion(v, motion, Eigen::Vector2d::Zero());
+    field_.set_motion(v, motion, at - field_.walls().pose(v, state_.time).displacement);
+  }
 }
 
 /// The gate's walls, there or not.
@@ -219,14 +225,12 @@ bool carry_over(std::vector<double>& positions, double from, double period, doub
 
 }  // namespace
 
-/// Carries grains that are well beyond a side of a periodic tray over to the other side: by a diameter, so that none
-/// goes to and fro.
+/// Carries grains that are well beyond a side of a periodic tray over to the other side.
 void Simulation::wrap() {
   if (field_.neighbours().images().empty()) return;
   const Vessel& tray = model_.scene.tray;
   const Pose& pose = field_.walls().poses().front();
-  double beyond = 0;
-  for (const SeedLot& lot : model_.scene.lots) beyond = std::max(beyond, lot.diameter);
+  const double beyond = model_.carried_beyond;
   bool any = false;
   if (tray.sides == Sides::periodic)
     any |= carry_over(state_.grains.x, tray.origin.x() + pose.displacement.x(), tray.length, beyond);

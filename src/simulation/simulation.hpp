@@ -56,7 +56,8 @@ class Simulation {
 
   /// Another motion for a vessel (0: the tray, 1: the hopper) from now on; it takes the place of the scene's and goes
   /// by the time of the run. Its displacement is moved so that the vessel goes on from where it is. Throws
-  /// std::invalid_argument for a vessel there is not, and where the old or the new motion turns the vessel.
+  /// std::invalid_argument for a vessel there is not, where the old or the new motion turns the vessel, and where a
+  /// hopper cannot stand over its periodic tray with it.
   void set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion);
 
   /// Opens or closes the gate of a hole (1.. from the left) that opens later than 0 in its scene. A gate does not close

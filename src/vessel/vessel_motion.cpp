@@ -358,7 +358,9 @@ MotionBounds bounds(const HarmonicMotion& m) {
   const double omega = two_pi * m.frequency;
   const double acceleration = m.amplitude * omega * omega;
   const double upward = std::abs(portable_math::sin(m.direction)) * std::abs(parts_of(m).in_plane);
-  return {m.amplitude * two_pi * m.frequency, acceleration, acceleration * upward};
+  const Parts parts = parts_of(m);
+  const double level = portable_math::hypot(parts.in_plane * portable_math::cos(m.direction), parts.across);
+  return {m.amplitude * two_pi * m.frequency, acceleration, acceleration * upward, std::abs(m.amplitude) * level, 0};
 }
 
 MotionBounds bounds(const SumMotion& sum) {
@@ -366,24 +368,24 @@ MotionBounds bounds(const SumMotion& sum) {
   for (const HarmonicMotion& component : sum.components) {
     const MotionBounds one = bounds(component);
     all.speed += one.speed, all.acceleration += one.acceleration;
-    all.vertical_acceleration += one.vertical_acceleration;
+    all.vertical_acceleration += one.vertical_acceleration, all.displacement += one.displacement;
   }
   return all;
 }
 
 MotionBounds bounds(const RockingMotion& m, const Vessel& vessel) {
   const double omega = two_pi * m.frequency, reach = m.angle * largest_radius(vessel, m.pivot);
-  return {reach * omega, reach * omega * omega, reach * omega * omega};
+  return {reach * omega, reach * omega * omega, reach * omega * omega, std::abs(reach), std::abs(m.angle)};
 }
 
 MotionBounds bounds(const TurningMotion& m, const Vessel& vessel) {
   const double omega = std::abs(m.angular_velocity);
   if (m.axis == TurningAxis::across) {
     const double reach = largest_radius(vessel, m.pivot);
-    return {reach * omega, reach * omega * omega, reach * omega * omega};
+    return {reach * omega, reach * omega * omega, reach * omega * omega, 2 * reach, std::numbers::pi};
   }
   const double reach = largest_radius_in_plan(vessel, m.pivot), acceleration = reach * omega * omega;
-  return {reach * omega, acceleration, acceleration * std::abs(portable_math::sin(vessel.tilt))};
+  return {reach * omega, acceleration, acceleration * std::abs(portable_math::sin(vessel.tilt)), 2 * reach, 0};
 }
 
 /// Velocity is quadratic in time between two times of the table, acceleration linear.
@@ -405,6 +407,10 @@ MotionBounds sampled_bounds(const TableMotion& table, const Vessel& vessel) {
       most.speed = std::max(most.speed, now.velocity.norm() + across + spin * radius);
       most.acceleration = std::max(most.acceleration, acceleration.norm() + faster / step + turning);
       most.vertical_acceleration = std::max(most.vertical_acceleration, std::abs(acceleration.y()) + turning);
+      const Pose pose = path.pose(from + part * step);
+      const double aside = portable_math::hypot(pose.displacement.x(), pose.across) + std::abs(pose.angle) * radius;
+      most.displacement = std::max(most.displacement, aside);
+      most.angle = std::max(most.angle, std::abs(pose.angle));
       before = now;
     }
   }

@@ -80,11 +80,14 @@ Eigen::Vector3d aside_while_rising(const Vessel& vessel, const Pose& pose, doubl
 /// Bounds for any point of the vessel's walls, without the ramps' fraction; 0 without motion. A harmonic has 2 pi f A
 /// and (2 pi f)^2 A, a sum the sum of these, rocking the same with Theta times the furthest wall's distance R from the
 /// pivot for A (its centripetal fraction is never the larger one below 1 rad), turning omega R and omega^2 R. A table
-/// is sampled between its times; there an angle's rate counts with R from the frame's zero.
+/// is sampled between its times; there an angle's rate counts with R from the frame's zero. How far they get aside from
+/// where they are at rest is A's level part, Theta R, 2 R of what turns steadily, and of a table sampled likewise.
 struct MotionBounds {
   double speed = 0;                  // m/s
   double acceleration = 0;           // m/s2
   double vertical_acceleration = 0;  // m/s2
+  double displacement = 0;           // m, level
+  double angle = 0;                  // rad, about the axis across
 };
 MotionBounds motion_bounds(const Vessel& vessel);
 

@@ -64,6 +64,7 @@ class SceneWriter {
     std::string name;
     double length, height, depth;
     bool box = true, round = false, drum = false, turns = false, periodic = false, periodic_across = false;
+    bool closed = false;
     int holes = 0;
     double hole_at = 0, hole_width = 0;  // of one of them
     double floor = 0;                    // its thickness
@@ -331,7 +332,12 @@ class SceneWriter {
     hopper.round = deep_ && draw_.one_in("hopper.round", 3);
     hopper.periodic_across = tray_.periodic_across && !hopper.round;
     const bool beside = !tray_.periodic && draw_.one_in("hopper.beside", 6);
-    const double over = draw_.number("hopper.left", 0.5, 1) * (tray_.length - hopper.length);
+    // Over a periodic tray as long as that, or up to its seam; there what crosses over has to meet the hopper's walls.
+    const int seam = tray_.periodic ? draw_.below("hopper.seam", 4) : 0;
+    if (seam == 1) hopper.length = tray_.length;
+    hopper.closed = seam > 0 && draw_.one_in("hopper.closed", 2);
+    const double part = seam == 2 ? 0 : seam == 3 ? 1 : draw_.number("hopper.left", 0.5, 1);
+    const double over = part * (tray_.length - hopper.length);
     set("hopper.left", mm(beside ? left_beside(hopper) : over));
     // Above the tray's walls, within them, or in its bed.
     const int above = draw_.below("hopper.above", 8);
@@ -380,7 +386,7 @@ class SceneWriter {
   void write_holes(Shape& vessel) {
     const std::string& name = vessel.name;
     const bool hopper = name == "hopper";
-    if (vessel.drum || (vessel.turns && !upright(vessel))) return;
+    if (vessel.closed || vessel.drum || (vessel.turns && !upright(vessel))) return;
     vessel.holes = hopper ? 1 : draw_.below(name + ".holes", 3);
     if (vessel.round) vessel.holes = std::min(vessel.holes, 1);
     if (vessel.holes == 0) return;

@@ -130,20 +130,41 @@ std::vector<OwnBall> balls_of(const Model& model, const Grains& grains) {
   return balls;
 }
 
+/// A scene's vessels, and in the periods beside a periodic tray the hopper again, which is fed nothing there.
+std::vector<Vessel> with_hoppers_beside(const Scene& scene) {
+  std::vector<Vessel> vessels = vessels_of(scene);
+  if (!scene.hopper) return vessels;
+  const bool along = scene.tray.sides == Sides::periodic;
+  const bool across = scene.space != Space::two_dimensional && scene.tray.front_and_back == Sides::periodic &&
+                      scene.hopper->front_and_back != Sides::periodic;
+  for (int i = along ? -1 : 0; i <= (along ? 1 : 0); ++i)
+    for (int k = across ? -1 : 0; k <= (across ? 1 : 0); ++k) {
+      if (i == 0 && k == 0) continue;
+      Vessel beside = *scene.hopper;
+      beside.fill.reset(), beside.rain.reset();
+      beside.origin.x() += i * scene.tray.length;
+      if (k != 0) beside.front += k * *scene.tray.depth;
+      vessels.push_back(beside);
+    }
+  return vessels;
+}
+
 /// Walls and rooms of a scene's vessels.
 class OwnScene {
  public:
-  explicit OwnScene(const Model& model) : model_(model), space_(model.scene.space) {
-    for (const Vessel& vessel : model.vessels) {
+  explicit OwnScene(const Model& model)
+      : model_(model), vessels_(with_hoppers_beside(model.scene)), space_(model.scene.space) {
+    for (const Vessel& vessel : vessels_) {
       walls_.push_back(own_walls(vessel, space_));
       paths_.emplace_back(vessel);
     }
   }
 
-  std::size_t vessels() const { return model_.vessels.size(); }
+  std::size_t vessels() const { return vessels_.size(); }
+  const Vessel& vessel(std::size_t vessel) const { return vessels_[vessel]; }
   const std::vector<OwnWall>& walls(std::size_t vessel) const { return walls_[vessel]; }
   Eigen::Vector3d in_vessel(std::size_t vessel, double time, const Eigen::Vector3d& lab) const {
-    return point_in_vessel(model_.vessels[vessel], paths_[vessel].pose(time), lab);
+    return point_in_vessel(vessels_[vessel], paths_[vessel].pose(time), lab);
   }
 
   /// What a seed that was just put in overlaps; empty: nothing.
@@ -167,9 +188,9 @@ class OwnScene {
 
   /// Whether a seed lies in the room of a vessel. Rain falls into one that turns as if it stood still.
   bool is_in(std::size_t vessel, double time, const Eigen::Vector3d& lab) {
-    for (std::size_t v = rooms_.size(); v < vessels(); ++v)
-      rooms_.emplace_back(model_.vessels[v], space_, 0.8 * least_half_width(model_.scene.lots));
-    if (turns_steadily(model_.vessels[vessel]) && time > 0) return true;
+    for (std::size_t v = rooms_.size(); v <= vessel; ++v)
+      rooms_.emplace_back(vessels_[v], space_, 0.8 * least_half_width(model_.scene.lots));
+    if (turns_steadily(vessels_[vessel]) && time > 0) return true;
     return rooms_[vessel].contains(in_vessel(vessel, time, lab));
   }
 
@@ -195,6 +216,7 @@ class OwnScene {
   }
 
   const Model& model_;
+  std::vector<Vessel> vessels_;
   Space space_;
   std::vector<std::vector<OwnWall>> walls_;
   std::vector<OwnRoom> rooms_;
@@ -219,7 +241,7 @@ std::string outside_of_room(OwnScene& own, const Model& model, const Grains& gra
     if (grains.id[i] < first_new) continue;
     bool inside = false;
     for (std::size_t v = 0; v < own.vessels(); ++v) {
-      const Vessel& vessel = model.vessels[v];
+      const Vessel& vessel = own.vessel(v);
       const bool feeds =
           time > 0 ? vessel.rain || (vessel.fill && vessel.fill->keep) : vessel_filled(model.scene, i) == v;
       inside |= feeds && own.is_in(v, time, place_of(grains, i));

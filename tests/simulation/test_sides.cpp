@@ -1,13 +1,18 @@
 // A tray without end walls, and one whose ends are joined.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
+#include "scene/input_error.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
 #include "support/same_bits.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -54,6 +59,103 @@ TEST(PeriodicSides, AGrainThatLeavesComesInAtTheOtherEnd) {
     EXPECT_NEAR(run.grains().x[0], 0.6, 1e-9);
     EXPECT_NEAR(run.grains().y[0], Bench::radius, 0.001 * Bench::radius) << "the floor goes on beyond the ends";
   }
+}
+
+/// A tray in whose period a closed hopper stands, full of seeds at rest: to the seam, or as long as the tray.
+Scene slice_under_hopper(Space space, double left, double length) {
+  Scene scene = slice();
+  scene.space = space;
+  scene.tray.fill.reset();
+  scene.tray.motion = HarmonicMotion{0, 8e-3, 12, 0};
+  Vessel& hopper = scene.hopper.emplace(scene.tray);
+  hopper.name = "hopper", hopper.sides = Sides::walls, hopper.motion.reset();
+  hopper.origin = {left, 0.12}, hopper.length = length;
+  hopper.fill = Fill{40, Packing::layers, 1e-3, false};
+  if (space == Space::three_dimensional) {
+    scene.tray.depth = hopper.depth = 0.04;
+    scene.tray.front_and_back = Sides::periodic;
+    hopper.fill->count = 150;
+  }
+  scene.run.duration = 0.2;
+  return scene;
+}
+
+TEST(PeriodicSides, AHopperHoldsItsSeedsInEveryPeriod) {
+  for (const Space space : {Space::two_dimensional, Space::three_dimensional})
+    for (const auto& [left, length] : {std::pair(0.001, 0.09), std::pair(0.0, 0.1), std::pair(0.02, 0.08)})
+      for (const double tilt : {0.0, left > 0 ? 0.3 : 0.0}) {
+        Scene scene = slice_under_hopper(space, left, length);
+        scene.hopper->tilt = tilt;
+        const Vessel& hopper = *scene.hopper;
+        Simulation run(prepare(scene), 1);
+        run.run_until(scene.run.duration);
+        ASSERT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
+        for (std::size_t i = 0; i < run.grains().size(); ++i) {
+          // The hopper's own frame, or that of one in another period.
+          const auto is_in = [&](double shift) {
+            const Eigen::Vector3d own =
+                point_in_vessel(hopper, {}, place_of(run.grains(), i) + Eigen::Vector3d(shift, 0, 0));
+            return own.x() > 0 && own.x() < hopper.length && own.y() > 0;
+          };
+          EXPECT_TRUE(is_in(0) || is_in(0.1) || is_in(-0.1))
+              << place_of(run.grains(), i).transpose() << ", left " << left << ", tilt " << tilt;
+        }
+      }
+}
+
+TEST(PeriodicSides, ASeedAtRestInAHopperDoesNotGoToAndFro) {
+  Scene scene = slice_under_hopper(Space::two_dimensional, 0, 0.1);
+  scene.tray.motion = HarmonicMotion{0, 12e-3, 12, 0};  // further than the diameter of a seed
+  Simulation run(prepare(scene), 1);
+  const std::vector<double> before = run.grains().x;
+  double farthest = 0;
+  run.watch(1e-3, [&](Simulation& now) {
+    for (std::size_t i = 0; i < before.size(); ++i)
+      farthest = std::max(farthest, std::abs(now.grains().x[i] - before[i]));
+  });
+  run.run_until(scene.run.duration);
+  EXPECT_LT(farthest, 0.5 * scene.tray.length);
+}
+
+TEST(PeriodicSides, AKeptHopperCountsItsSeedsInEveryPeriod) {
+  Scene scene = slice_under_hopper(Space::two_dimensional, 0.001, 0.09);
+  scene.hopper->fill->keep = true;
+  Simulation run(prepare(scene), 1);
+  run.run_until(scene.run.duration);
+  ASSERT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
+  EXPECT_EQ(run.grains().size(), 40u);
+}
+
+TEST(PeriodicSides, AHopperThatDoesNotClearItsImagesIsRefused) {
+  const auto refused = [](const std::function<void(Scene&)>& change) {
+    Scene scene = slice_under_hopper(Space::two_dimensional, 0.001, 0.09);
+    change(scene);
+    try {
+      prepare(scene);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused([](Scene&) {}), "");
+  EXPECT_EQ(refused([](Scene& scene) { scene.hopper->origin.x() = 0.02; }),
+            "hopper.left: the hopper does not lie within the length of the periodic tray");
+  EXPECT_EQ(
+      refused([](Scene& scene) { scene.hopper->tilt = 0.5; }),
+      "hopper.length: the hopper, as it leans and turns and with its pieces, takes 102.6 mm along a periodic tray "
+      "of 100 mm: it would pass through the hopper of the next period");
+  EXPECT_EQ(refused([](Scene& scene) {
+              scene.hopper->motion = RockingMotion{{0, 0}, 0.5, 3};
+            }).substr(0, 14),
+            "hopper.length:");
+  EXPECT_EQ(refused([](Scene& scene) {
+              scene.hopper->pieces.push_back({.a = {-0.02, 0.05}, .b = {0, 0.05}});
+            }).substr(0, 14),
+            "hopper.length:");
+  EXPECT_EQ(refused([](Scene& scene) {
+              scene.tray.motion = HarmonicMotion{0, 0.07, 3, 0};
+            }),
+            "hopper.motion: tray and hopper move by up to 70 mm against each other, too far for a period of 100 mm");
 }
 
 TEST(PeriodicSides, AHoleCountsModuloTheLength) {

@@ -251,7 +251,7 @@ TEST(Motion, BoundsAreReachedAndNotPassed) {
     const Vessel vessel = moving(kind.motion);
     const VesselPath path(vessel);
     const double length = vessel.length, height = vessel.height;
-    double speed = 0, acceleration = 0, vertical = 0;
+    double speed = 0, acceleration = 0, vertical = 0, aside = 0, turned = 0;
     const double h = 1e-5;
     // Between the ramps, whose fraction the bounds leave out; of the table all of it, for it is jerked to rest at its
     // ends.
@@ -264,15 +264,21 @@ TEST(Motion, BoundsAreReachedAndNotPassed) {
         speed = std::max(speed, ((at(t + h) - at(t - h)) / (2 * h)).norm());
         acceleration = std::max(acceleration, a.norm());
         vertical = std::max(vertical, std::abs(a.y()));
+        aside = std::max(aside, std::abs(at(t).x() - in_lab_frame(vessel, {}, own).x()));
+        turned = std::max(turned, std::abs(std::remainder(path.pose(t).angle, 2 * std::numbers::pi)));
       }
     EXPECT_LE(speed, motion_bounds(vessel).speed * 1.001) << kind.name;
     EXPECT_LE(acceleration, motion_bounds(vessel).acceleration * 1.02) << kind.name;
     EXPECT_LE(vertical, motion_bounds(vessel).vertical_acceleration * 1.02) << kind.name;
+    EXPECT_LE(aside, motion_bounds(vessel).displacement * 1.001) << kind.name;
+    EXPECT_GE(aside, 0.2 * motion_bounds(vessel).displacement) << kind.name;
+    EXPECT_LE(turned, motion_bounds(vessel).angle * 1.001) << kind.name;
     EXPECT_GE(speed, 0.5 * motion_bounds(vessel).speed) << kind.name;
     EXPECT_GE(acceleration, 0.3 * motion_bounds(vessel).acceleration) << kind.name;
   }
   EXPECT_EQ(motion_bounds(Vessel{}).speed, 0);
   EXPECT_EQ(motion_bounds(moving(HarmonicMotion{0, 0.01, 9, 0})).vertical_acceleration, 0);
+  EXPECT_LT(motion_bounds(moving(HarmonicMotion{std::numbers::pi / 2, 0.01, 9, 0})).displacement, 1e-12);
 }
 
 TEST(Motion, AGrainLyingOnARockingFloorFeelsTheFloorsOwnVelocity) {
