@@ -15,6 +15,7 @@
 #include "cli/help_text.hpp"
 #include "cli/progress.hpp"
 #include "report/terminal_text.hpp"
+#include "scene/printable.hpp"
 #include "storage/case_folder.hpp"
 #include "storage/checkpoint_folder.hpp"
 #include "storage/run_leases.hpp"
@@ -86,7 +87,7 @@ void print_status(const std::string& folder) {
   const auto asked = adaptive_study(plan);
   const std::string so_far = asked ? follow(plan, *asked, folder) : "";
   const Status status = status_of(plan.runs, CaseFolder(cases_of(folder)));
-  print("{}\n{} of {} runs are there, {} are missing\n{}", plan.study, status.kept, plan.runs.size(),
+  print("{}\n{} of {} runs are there, {} are missing\n{}", printable(plan.study), status.kept, plan.runs.size(),
         status.missing.size(), so_far);
   const double rate = print_under_way(RunLeases(cases_of(folder) / "running").all(), status);
   const auto saved = std::ranges::count_if(CheckpointFolder(cases_of(folder) / "checkpoints").runs(),

@@ -14,25 +14,35 @@
 namespace vibrosow {
 namespace {
 
-/// Names of kept runs that are damaged.
-std::vector<std::string> damaged_in(const CaseFolder& cases) {
-  std::vector<std::string> damaged;
+/// Names of kept runs that cannot be read.
+struct Unreadable {
+  std::vector<std::string> damaged, of_other_version;
+};
+Unreadable unreadable_in(const CaseFolder& cases) {
+  Unreadable unreadable;
   for (const std::string& name : cases.names())
-    if (!cases.named(name)) damaged.push_back(name);
-  return damaged;
+    if (!cases.named(name))
+      (cases.is_of_other_version(name) ? unreadable.of_other_version : unreadable.damaged).push_back(name);
+  return unreadable;
 }
 
-/// Looks at every kept run and makes those that are damaged anew; an exit code.
+/// Looks at every kept run and makes those that cannot be read anew; an exit code.
 int verify(const std::string& folder) {
   const StudyPlan plan = read_plan(folder);
   const CaseFolder cases(cases_of(folder));
-  const std::vector<std::string> damaged = damaged_in(cases);
-  print("{} runs, {} damaged\n", cases.names().size(), damaged.size());
-  if (damaged.empty()) return exit_done;
+  const auto [damaged, of_other_version] = unreadable_in(cases);
+  print("{} runs, {} damaged{}\n", cases.names().size(), damaged.size(),
+        of_other_version.empty() ? "" : fmt::format(", {} of another version of the program", of_other_version.size()));
+  for (const std::string& segment : cases.unreadable_segments())
+    complain(fmt::format("warning: {}: is damaged; the runs that it held are missing", segment));
   for (const std::string& name : damaged) print("damaged: {}\n", name);
+  for (const std::string& name : of_other_version) print("of another version: {}\n", name);
+  std::vector<std::string> unreadable = damaged;
+  unreadable.insert(unreadable.end(), of_other_version.begin(), of_other_version.end());
+  if (unreadable.empty()) return exit_done;
   const PlannedStudy planned = study_of_plan(plan);
   std::vector<std::size_t> again;
-  for (const std::string& name : damaged) {
+  for (const std::string& name : unreadable) {
     cases.remove(name);
     const auto run = std::ranges::find(plan.runs, name, &PlannedRun::name);
     if (run != plan.runs.end()) again.push_back(static_cast<std::size_t>(run - plan.runs.begin()));
@@ -40,7 +50,7 @@ int verify(const std::string& folder) {
   StudyRuns runs(cases_of(folder));
   const BatchResult made = make_runs(runs, wanted_runs(planned, again), {}, 1, true);
   print("{} made again; {} belong to no run of the plan and were removed\n", made.batch.made,
-        damaged.size() - again.size());
+        unreadable.size() - again.size());
   return made.batch.interrupted > 0 ? exit_interrupted : exit_done;
 }
 

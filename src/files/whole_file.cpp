@@ -1,5 +1,7 @@
 #include "files/whole_file.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -33,7 +35,7 @@ std::optional<std::string> text_of_file(const fs::path& file, std::uint64_t most
   return text_within(file, most);
 }
 
-std::string text_of_wanted_file(const fs::path& file) {
+std::string text_of_wanted_file(const fs::path& file, std::uint64_t most) {
   const auto fail = [&](const std::string& reason) { throw InputError(file.string() + ": " + reason); };
   std::error_code error;
   const fs::file_type kind = fs::status(file, error).type();
@@ -42,9 +44,17 @@ std::string text_of_wanted_file(const fs::path& file) {
   if (kind == fs::file_type::directory) fail("cannot be read: it is a directory");
   if (kind != fs::file_type::regular) fail("cannot be read: it is not a plain file");
   errno = 0;
-  std::optional<std::string> text = text_within(file, std::uint64_t{1} << 32);
-  if (!text) fail(errno ? std::string("cannot be read: ") + std::strerror(errno) : "holds more than 4 GiB");
+  std::optional<std::string> text = text_within(file, most);
+  if (!text)
+    fail(errno ? std::string("cannot be read: ") + std::strerror(errno)
+               : fmt::format("holds more than {} bytes", most));
   return *text;
+}
+
+std::optional<std::string> text_of_file_or_none(const fs::path& file, std::uint64_t most) {
+  std::error_code error;
+  if (fs::status(file, error).type() == fs::file_type::not_found) return std::nullopt;
+  return text_of_wanted_file(file, most);
 }
 
 }  // namespace vibrosow

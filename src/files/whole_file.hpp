@@ -11,6 +11,10 @@ namespace vibrosow {
 std::optional<std::string> text_of_file(const std::filesystem::path& file, std::uint64_t most = std::uint64_t{1} << 32);
 
 /// The same of a file that there has to be. Throws InputError, with its name and the reason.
-std::string text_of_wanted_file(const std::filesystem::path& file);
+std::string text_of_wanted_file(const std::filesystem::path& file, std::uint64_t most = std::uint64_t{1} << 32);
+
+/// The same, but none where there is no such file.
+std::optional<std::string> text_of_file_or_none(const std::filesystem::path& file,
+                                                std::uint64_t most = std::uint64_t{1} << 32);
 
 }  // namespace vibrosow

@@ -34,14 +34,14 @@ std::vector<OutputFile> timed_page_files(const std::string& page_template, const
 }
 
 std::optional<Json> kept_page_data(const std::filesystem::path& folder) {
-  const auto text = text_of_file(folder / page_data_name);
+  const auto text = text_of_file_or_none(folder / page_data_name);
   if (!text) return std::nullopt;
   std::filesystem::path read = folder / page_data_name;
   try {
     Json data = parse_json<Json>(*text);
     if (data.at("kind") != "accuracy") return data;
     read = folder / page_times_name;
-    if (const auto times = text_of_file(read)) add_times(data, parse_json<Json>(*times));
+    if (const auto times = text_of_file_or_none(read)) add_times(data, parse_json<Json>(*times));
     return data;
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: was not written by vibrosow: {}", read.string(), error.what()));

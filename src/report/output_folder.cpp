@@ -79,10 +79,11 @@ std::string text_of(const FileList& list, bool complete) {
 /// out of the folder would have a file removed there.
 std::optional<FileList> read_list(const fs::path& folder) {
   const fs::path path = folder / list_name;
-  if (std::error_code none; !fs::exists(path, none)) return std::nullopt;
   constexpr std::size_t most = std::size_t{1} << 24;  // bytes
+  const std::optional<std::string> text = text_of_file_or_none(path, most);
+  if (!text) return std::nullopt;
   try {
-    const auto json = parse_json<nlohmann::json>(text_of_file(path, most).value_or(""));
+    const auto json = parse_json<nlohmann::json>(*text);
     FileList list{json.at("command"), json.at("files")};
     if (is_plain_name(list.command) && std::ranges::all_of(list.files, is_plain_name)) return list;
   } catch (const nlohmann::json::exception&) {

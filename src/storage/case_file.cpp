@@ -152,6 +152,10 @@ std::string content_of_case(std::string_view bytes) {
   return bytes.substr(0, head_size) == head(content_hash, bytes.substr(head_size)) ? content_hash : "";
 }
 
+bool is_case_of_other_version(std::string_view bytes) {
+  return bytes.starts_with("vibrosow case ") && !bytes.starts_with(signature);
+}
+
 Case read_case(std::string_view bytes) {
   if (!bytes.starts_with(signature)) refuse("it is no case of this version of Vibrosow");
   const std::string content_hash = content_of_case(bytes);

@@ -29,6 +29,9 @@ struct Case {
   Run run;  // its times are 0
 };
 
+/// Whether such bytes are a case as another version of the program writes it.
+bool is_case_of_other_version(std::string_view bytes);
+
 /// What such bytes hold. Throws InputError with the reason where they are no case or are damaged.
 Case read_case(std::string_view bytes);
 

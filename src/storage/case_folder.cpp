@@ -50,6 +50,18 @@ std::string CaseFolder::sound_bytes(const std::string& name) const {
   return "";
 }
 
+bool CaseFolder::is_of_other_version(const std::string& name) const {
+  if (is_case_of_other_version(loose_bytes(name))) return true;
+  const std::lock_guard lock(mutex_);
+  return !segments_.find(name, is_case_of_other_version).empty();
+}
+
+std::vector<std::string> CaseFolder::unreadable_segments() const {
+  const std::lock_guard lock(mutex_);
+  segments_.refresh();
+  return segments_.unreadable();
+}
+
 std::optional<Run> CaseFolder::find(std::string_view identity) const {
   std::optional<Case> found = named(case_name(identity));
   if (!found || found->identity != identity) return std::nullopt;
@@ -111,6 +123,8 @@ void CaseFolder::keep(std::string_view identity, const Run& run) const {
           "{}: holds another run of the same scene and random seed: the programs that made them do not agree",
           file.path().string()));
   }
+  if (bytes.size() > most_bytes_of_a_case)
+    throw InputError(fmt::format("{}: more than 1 GiB is not kept of a run; record less", file.path().string()));
   make_directories(path_ / name.substr(0, 2), file.path());
   write_file_atomically(file, bytes);
 }
@@ -123,8 +137,6 @@ std::size_t CaseFolder::pack(std::size_t at_least) const {
   const auto write = [&] {
     if (segment.empty()) return;
     segments_.write(segment);
-    if (bytes.size() > most_bytes_of_a_case)
-      throw InputError(fmt::format("{}: more than 1 GiB is not kept of a run; record less", file.path().string()));
     for (const auto& [name, content] : segment) remove(name);
     packed += segment.size();
     segment.clear(), bytes = 0;

@@ -36,6 +36,12 @@ class CaseFolder {
   /// Whether a sound case lies under a name; quicker than `named`, though one in the place of another is not noticed.
   bool has(const std::string& name) const;
 
+  /// Whether what lies under a name is a case as another version of the program writes it, which this one cannot read.
+  bool is_of_other_version(const std::string& name) const;
+
+  /// File names of segments that are damaged: what they held is missing.
+  std::vector<std::string> unreadable_segments() const;
+
   /// Takes a case away where it lies in a file of its own.
   void remove(const std::string& name) const;
 

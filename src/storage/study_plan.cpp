@@ -132,7 +132,7 @@ std::string freeze_plan(const fs::path& folder, const StudyPlan& plan) {
 
 std::string current_plan(const fs::path& folder) {
   constexpr std::size_t most = 1000;  // bytes
-  std::string name = text_of_file(pointer_of(folder).path(), most).value_or("");
+  std::string name = text_of_file_or_none(pointer_of(folder).path(), most).value_or("");
   if (name.empty())
     throw InputError(fmt::format("{}: there is no cases/plan: not a folder of a sweep", folder.string()));
   if (name.ends_with('\n')) name.pop_back();
@@ -147,7 +147,7 @@ StudyPlan read_plan(const fs::path& folder, std::string name) {
     throw InputError(fmt::format("a plan is named by {} of the digits 0 to 9 and a to f, not by \"{}\"", plan_digits,
                                  name.substr(0, 2 * plan_digits)));
   const fs::path path = plan_file(folder, name + ".json").path();
-  const std::optional<std::string> text = text_of_file(path);
+  const std::optional<std::string> text = text_of_file_or_none(path);
   if (!text) throw InputError(fmt::format("{}: there is no plan {}", folder.string(), name));
   try {
     if (name_of(*text) == name) return plan_in(*text);
