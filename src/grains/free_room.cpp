@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grains/turned_discs.hpp"
 #include "portable_math/functions.hpp"
+#include "scene/seed_lot.hpp"
 #include "vessel/vessel_walls.hpp"
+#include "vessel/wall_points.hpp"
 
 namespace vibrosow {
 namespace {
@@ -37,7 +40,9 @@ FreeRoom::FreeRoom(const Vessel& vessel, Space space, double least_radius, doubl
       kept_clear_(cut_ ? 0.9 : 0.8),
       least_radius_(least_radius),
       most_cells_(most_cells),
-      obstacles_(without_lid(vessel), space) {
+      obstacles_(without_lid(vessel), space),
+      drum_(drum_of(vessel)),
+      drawn_(drawn_walls(vessel, space)) {
   top_ = std::max(vessel.height, obstacles_.top() + least_radius);
 }
 
@@ -52,6 +57,60 @@ bool FreeRoom::is_in_plan(const Eigen::Vector3d& centre, double clear) const {
   };
   return between(vessel_.sides, centre.x(), vessel_.length) &&
          (!is_3d_ || between(vessel_.front_and_back, centre.z(), *vessel_.depth));
+}
+
+std::vector<FreeRoom::Stroke> FreeRoom::drawn_walls(const Vessel& vessel, Space space) {
+  std::vector<Stroke> strokes;
+  if (!is_only_drawn(vessel)) return strokes;
+  for (const WallSegment& wall : vessel_walls(vessel)) {
+    const std::vector<Eigen::Vector2d> points = wall_points(wall);
+    for (std::size_t k = 1; k < points.size(); ++k) strokes.push_back({points[k - 1], points[k]});
+  }
+  for (const WallPiece& piece : vessel.pieces)
+    if (space == Space::three_dimensional && piece.about && piece.axis == PieceAxis::upright)
+      strokes.push_back({piece.a, piece.b, piece.about});
+  return strokes;
+}
+
+/// Whether drawn walls stand to the left and to the right at the centre's height; on one side alone: it lies beside
+/// them. None: on neither.
+std::optional<bool> FreeRoom::is_between(const Eigen::Vector3d& centre) const {
+  bool left = false, right = false;
+  const auto meet = [&](double x) { (x <= centre.x() ? left : right) = true; };
+  for (const Stroke& stroke : drawn_) {
+    if ((stroke.a.y() < centre.y()) == (stroke.b.y() < centre.y())) continue;
+    const double part = (centre.y() - stroke.a.y()) / (stroke.b.y() - stroke.a.y());
+    const double at = stroke.a.x() + part * (stroke.b.x() - stroke.a.x());
+    if (!stroke.about) {
+      meet(at);
+    } else if (const double aside = centre.z() - stroke.about->y(); std::abs(aside) < at) {
+      const double half = std::sqrt(at * at - aside * aside);
+      meet(stroke.about->x() - half), meet(stroke.about->x() + half);
+    }
+  }
+  return left || right ? std::optional(left && right) : std::nullopt;
+}
+
+/// Above drawn walls it is as at the rim beneath, below them, in an outlet, as at their foot; over one with no rim
+/// beside, as on a plate, it is within too.
+bool FreeRoom::is_between_drawn(const Eigen::Vector3d& centre) const {
+  if (drawn_.empty()) return true;
+  if (const std::optional<bool> between = is_between(centre)) return *between;
+  double rim = -1e300, ground = -1e300;  // m, the highest beneath
+  double foot = 1e300;                   // m, the lowest of all
+  for (const Stroke& stroke : drawn_) {
+    const double top = std::max(stroke.a.y(), stroke.b.y());
+    foot = std::min({foot, stroke.a.y(), stroke.b.y()});
+    if (top > centre.y()) continue;
+    rim = std::max(rim, top);
+    const double x = stroke.about ? portable_math::hypot(centre.x() - stroke.about->x(), centre.z() - stroke.about->y())
+                                  : centre.x();
+    const double along = stroke.b.x() - stroke.a.x(), part = along == 0 ? -1 : (x - stroke.a.x()) / along;
+    if (part >= 0 && part <= 1) ground = std::max(ground, stroke.a.y() + part * (stroke.b.y() - stroke.a.y()));
+  }
+  if (rim < foot) return is_between({centre.x(), std::nextafter(foot, 1e300), centre.z()}).value_or(false);
+  if (ground >= rim) return true;
+  return is_between({centre.x(), rim, centre.z()}).value_or(false);
 }
 
 /// Where the centre lies in the cut, if there is one.
@@ -75,9 +134,8 @@ bool FreeRoom::is_open_above(const Eigen::Vector3d& centre) const {
 
 bool FreeRoom::holds(const Eigen::Vector3d& centre) const {
   if (!is_in_plan(centre, 0) || centre.y() < 0) return false;
-  if (const WallPiece* drum = drum_of(vessel_))
-    if ((centre.head<2>() - drum->centre).norm() > drum->radius) return false;
-  return obstacles_.none() || is_open_above(centre) || is_reached(centre);
+  if (drum_ && (centre.head<2>() - drum_->centre).norm() > drum_->radius) return false;
+  return is_between_drawn(centre) && (obstacles_.none() || is_open_above(centre) || is_reached(centre));
 }
 
 /// Of any place: one that is nearer to a wall than a seed's centre comes is asked of that far away, on its own side.
@@ -161,7 +219,7 @@ std::vector<char> FreeRoom::free_cells(const Grid& grid) const {
             for (int x = i; x < end.x(); ++x) {
               const Eigen::Array3i at(x, y, z);
               const Eigen::Vector3d centre = in_cut(grid.centre(at));
-              const bool inside = is_in_plan(centre, clear) && centre.y() >= clear;
+              const bool inside = is_in_plan(centre, clear) && centre.y() >= clear && is_between_drawn(centre);
               free[grid.index(at)] = inside && (all_free || obstacles_.distance(centre) >= clear) ? 1 : 0;
             }
       }
@@ -207,21 +265,47 @@ void FreeRoom::flood(std::vector<char> cells, Grid& grid) const {
   grid.reached = std::move(cells);
 }
 
-FreeRoom::Grid FreeRoom::made_grid() const {
-  const double depth = cut_ ? 0 : *vessel_.depth;
+double FreeRoom::cell() const {
   const double in_plane = vessel_.length * top_;
   const double least_cell =
-      cut_ ? std::sqrt(in_plane / most_cells_) : portable_math::pow(in_plane * depth / most_cells_, 1.0 / 3);
-  const double cell = std::max(least_radius_ / cells_in_radius_, least_cell);
+      cut_ ? std::sqrt(in_plane / most_cells_) : portable_math::pow(in_plane * *vessel_.depth / most_cells_, 1.0 / 3);
+  return std::max(least_radius_ / cells_in_radius_, least_cell);
+}
+
+std::optional<double> FreeRoom::missed_width() const {
+  const double radius = cells_in_radius_ * cell();
+  return obstacles_.none() || radius <= least_radius_ ? std::nullopt : std::optional(2 * radius);
+}
+
+FreeRoom::Grid FreeRoom::made_grid() const {
+  const double edge = cell(), depth = cut_ ? 0 : *vessel_.depth;
   Grid grid{
-      .cell = Eigen::Vector3d::Constant(cell), .cells = Eigen::Array3i::Ones(), .radius = cells_in_radius_ * cell};
+      .cell = Eigen::Vector3d::Constant(edge), .cells = Eigen::Array3i::Ones(), .radius = cells_in_radius_ * edge};
   const Eigen::Array3d room(vessel_.length, top_ + grid.radius, depth);
-  grid.cells = (room / cell).ceil().cast<int>().max(1);
+  grid.cells = (room / edge).ceil().cast<int>().max(1);
   // Along a period just as many cells as fill it.
   for (const int axis : {0, 2})
     if (room[axis] > 0) grid.cell[axis] = room[axis] / grid.cells[axis];
   flood(free_cells(grid), grid);
   return grid;
+}
+
+FreeRooms::FreeRooms(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space)
+    : vessel_(vessel), space_(space) {
+  constexpr double step = 1.25;  // of the half width, within a lot
+  for (const SeedLot& lot : lots)
+    for (double size = least_size(lot); size <= most_size(lot); size *= step)
+      half_widths_.push_back(half_width(lot, size));
+  std::ranges::sort(half_widths_);
+  rooms_.resize(half_widths_.size());
+}
+
+const FreeRoom& FreeRooms::of(double half_width) const {
+  constexpr double rounding = 1e-9;
+  const auto wider = std::ranges::upper_bound(half_widths_, half_width * (1 + rounding));
+  const std::size_t k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, wider - half_widths_.begin() - 1));
+  if (!rooms_[k]) rooms_[k].emplace(vessel_, space_, half_widths_[k]);
+  return *rooms_[k];
 }
 
 }  // namespace vibrosow

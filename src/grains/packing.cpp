@@ -18,11 +18,17 @@
 namespace vibrosow {
 
 void refuse_fill(const Vessel& vessel) {
-  if (drum_of(vessel) != nullptr)
+  if (drum_of(vessel))
     throw InputError(fmt::format(
         "{}: {} grains do not all lie within the circle of the {}'s pieces; take fewer, or a {} just as long and high "
         "as its circle",
         vessel.fill->where.or_key(vessel.name + ".fill.count"), vessel.fill->count, vessel.name, vessel.name));
+  if (is_only_drawn(vessel))
+    throw InputError(
+        fmt::format("{}: {} grains do not all lie between the {}'s pieces, where they come to from above; take fewer, "
+                    "or draw walls "
+                    "to the left and right of them (pieces that close all round are a drum where they are a circle)",
+                    vessel.fill->where.or_key(vessel.name + ".fill.count"), vessel.fill->count, vessel.name));
   throw InputError(
       fmt::format("{}: {} grains rise above the end walls ({}.height = {:.6g} mm); take fewer, or a higher {}",
                   vessel.fill->where.or_key(vessel.name + ".fill.count"), vessel.fill->count, vessel.name,

@@ -8,6 +8,7 @@
 
 #include "portable_math/functions.hpp"
 #include "vessel/nearest_on_face.hpp"
+#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -108,10 +109,24 @@ double random_across(const Vessel& vessel, double radius, double x, Random& rand
 }
 
 Vessel without_lid(Vessel vessel) {
-  if (const WallPiece* drum = drum_of(vessel)) {
-    WallPiece& piece = vessel.pieces[static_cast<std::size_t>(drum - vessel.pieces.data())];
-    piece.from = std::numbers::pi, piece.to = 2 * std::numbers::pi;
+  constexpr double pi = std::numbers::pi;
+  const std::optional<DrumCircle> drum = drum_of(vessel);
+  if (!drum) return vessel;
+  std::vector<WallPiece> pieces;
+  for (const WallPiece& piece : vessel.pieces) {
+    if (!is_of_plane(piece) || !drum->has(piece.centre, piece.radius)) {
+      pieces.push_back(piece);
+      continue;
+    }
+    // An arc is at most a turn, and begins at any angle.
+    const double turns = std::floor(piece.from / (2 * pi)) * 2 * pi;
+    for (const double turn : {turns, turns + 2 * pi}) {
+      WallPiece lower = piece;
+      lower.from = std::max(piece.from, turn + pi), lower.to = std::min(piece.to, turn + 2 * pi);
+      if (lower.to - lower.from > 1e-9) pieces.push_back(lower);
+    }
   }
+  vessel.pieces = std::move(pieces);
   return vessel;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "grains/free_room.hpp"
 #include "grains/places.hpp"
 #include "grains/size_distribution.hpp"
 #include "grains/turned_discs.hpp"
@@ -173,11 +174,11 @@ std::vector<Eigen::Vector2d> points_along(const WallSegment& wall, double pitch)
 /// drum there is none.
 void add_slopes(Heap& heap, const Vessel& vessel, double smallest_radius) {
   const double pitch = 0.1 * smallest_radius;
-  const WallPiece* drum = drum_of(vessel);
+  const std::optional<DrumCircle> drum = drum_of(vessel);
   for (const WallSegment& wall : vessel_walls(without_lid(vessel))) {
     const Eigen::Vector2d along = wall.b - wall.a;
     if (!wall.is_piece && (along.x() == 0 || along.y() == 0)) continue;
-    const bool of_drum = drum != nullptr && wall.radius == drum->radius && wall.centre == drum->centre;
+    const bool of_drum = drum && drum->has(wall.centre, wall.radius);
     const double curvature = wall.radius > 0 && !of_drum ? 1 / wall.radius : 0;
     const double inflation = pitch * pitch / (8 * smallest_radius) + pitch * pitch / 8 * curvature;
     for (const Eigen::Vector2d& p : points_along(wall, pitch)) {
@@ -241,17 +242,28 @@ std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& 
                               Random& random, StopRequest stop) {
   Heap heap(vessel.length, largest_disc(lots));
   add_slopes(heap, vessel, smallest_radius(lots));
+  const bool only_drawn = is_only_drawn(vessel);
+  const FreeRooms rooms(vessel, lots, Space::two_dimensional);
   std::vector<PackedGrain> packed;
   for (const int lot : order) {
     stop.throw_if_set();
     const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
     const double size = draw_size(seeds, random), angle = draw_angle(seeds, random);
     const double radius = 0.5 * size * seeds.diameter;
-    const double x = random.uniform(radius, vessel.length - radius);
-    const Rest at = seeds.discs.empty() ? drop_and_roll(heap, vessel.length, x, radius)
-                                        : drop_and_search(heap, vessel.length, seeds, size, x, angle, random);
+    const auto dropped = [&] {
+      const double x = random.uniform(radius, vessel.length - radius);
+      return seeds.discs.empty() ? drop_and_roll(heap, vessel.length, x, radius)
+                                 : drop_and_search(heap, vessel.length, seeds, size, x, angle, random);
+    };
+    const auto falls_beside = [&](const Rest& at) {
+      if (!only_drawn) return false;
+      const ClumpDisc disc = thickest(turned_discs(seeds, size, {at.angle}));
+      return !rooms.of(disc.radius).holds({at.x + disc.x, at.y + disc.y, 0});
+    };
+    Rest at = dropped();
+    for (int drop = 1; drop < most_drops && falls_beside(at); ++drop) at = dropped();
     const TurnedSeed seed(seeds, size, at.angle);
-    if (at.y + seed.top > vessel.height) refuse_fill(vessel);
+    if (at.y + seed.top > vessel.height || falls_beside(at)) refuse_fill(vessel);
     for (const ClumpDisc& disc : seed.discs) heap.add({at.x + disc.x, at.y + disc.y, disc.radius});
     packed.push_back({at.x, at.y, lot, size, {at.angle}});
   }

@@ -18,6 +18,9 @@ std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& 
 std::vector<PackedGrain> pour_3d(const Vessel& vessel, const std::vector<SeedLot>& lots, const std::vector<int>& order,
                                  Random& random, StopRequest stop);
 
+/// How often a seed is dropped that came down where no seed belongs, before the fill is refused.
+inline constexpr int most_drops = 100;
+
 /// Throws InputError: the fill rises above the vessel's walls.
 [[noreturn]] void refuse_fill(const Vessel& vessel);
 

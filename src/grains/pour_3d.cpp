@@ -9,6 +9,7 @@
 #include "grains/size_distribution.hpp"
 #include "grains/turned_discs.hpp"
 #include "scene/seed_lot.hpp"
+#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -32,11 +33,12 @@ class LowestPlace {
       : vessel_(vessel),
         heap_(heap),
         obstacles_(without_lid(vessel), Space::three_dimensional),
-        room_(vessel, Space::three_dimensional, least_half_width(lots)) {}
+        rooms_(vessel, lots, Space::three_dimensional),
+        only_drawn_(is_only_drawn(vessel)) {}
 
-  /// Looked for anew where a seed came down nowhere: a piece that reaches the top is in its way, and it is wide.
+  /// Looked for anew where a seed came down nowhere: a piece that reaches the top is in its way, and it is wide, or it
+  /// fell beside the walls.
   PlacedSeed find(const SeedLot& seeds, double size, Random& random) const {
-    constexpr int most_drops = 100;
     PlacedSeed seed = found_below(seeds, size, random);
     for (int drop = 1; drop < most_drops && std::isinf(seed.height); ++drop) seed = found_below(seeds, size, random);
     return seed;
@@ -87,10 +89,11 @@ class LowestPlace {
       const double least = height + ball.y, from = std::max(least, vessel_.height - ball.radius);
       height = std::max(height, obstacles_.touching_height(place, ball.radius, from, least) - ball.y);
     }
-    // What reaches over the top, from where seeds fall, may shelter a place.
+    // What reaches over the top, from where seeds fall, may shelter a place; beside drawn walls is none.
     const ClumpDisc& ball = thickest(seed.balls);
     const FloorPlace place = seed.place_of(ball, vessel_);
-    if (height < limit && obstacles_.top() > vessel_.height && !room_.holds({place.x(), height + ball.y, place.y()}))
+    if (height < limit && (only_drawn_ || obstacles_.top() > vessel_.height) &&
+        !rooms_.of(ball.radius).holds({place.x(), height + ball.y, place.y()}))
       return std::numeric_limits<double>::infinity();
     return height;
   }
@@ -98,7 +101,8 @@ class LowestPlace {
   const Vessel& vessel_;
   const Heap3d& heap_;
   Obstacles obstacles_;
-  FreeRoom room_;
+  FreeRooms rooms_;
+  bool only_drawn_;
 };
 
 }  // namespace

@@ -12,11 +12,11 @@
 namespace vibrosow {
 namespace {
 
-/// Where in a vessel a row may have a place.
+/// Where in a vessel a row may have a place: each is one for every seed, so for the widest.
 class Room {
  public:
   Room(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space)
-      : vessel_(vessel), obstacles_(vessel, space), room_(vessel, space, least_half_width(lots)) {}
+      : vessel_(vessel), obstacles_(vessel, space), room_(vessel, space, most_half_width(lots)) {}
 
   /// Whether a ball of diameter `clear` (m) has room at `seat`.
   bool holds(const Eigen::Vector3d& seat, double clear) const {
@@ -79,8 +79,8 @@ bool visit_seats(const Vessel& vessel, const std::vector<SeedLot>& lots, Space s
 
 bool is_outside_of_drum(const Vessel& vessel, const Eigen::Vector2d& seat, double radius) {
   constexpr double slack = 1e-3;  // of the radius
-  const WallPiece* drum = drum_of(vessel);
-  return drum != nullptr && (seat - drum->centre).norm() + (1 - slack) * radius >= drum->radius;
+  const std::optional<DrumCircle> drum = drum_of(vessel);
+  return drum && (seat - drum->centre).norm() + (1 - slack) * radius >= drum->radius;
 }
 
 }  // namespace vibrosow

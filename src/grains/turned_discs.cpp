@@ -41,10 +41,20 @@ const ClumpDisc& thickest(const std::vector<ClumpDisc>& discs) {
   return *std::ranges::max_element(discs, {}, &ClumpDisc::radius);
 }
 
+double half_width(const SeedLot& lot, double size) {
+  return thickest(turned_discs(lot, size, {})).radius;
+}
+
 double least_half_width(const std::vector<SeedLot>& lots) {
   double least = std::numeric_limits<double>::infinity();
-  for (const SeedLot& lot : lots) least = std::min(least, thickest(turned_discs(lot, least_size(lot), {})).radius);
+  for (const SeedLot& lot : lots) least = std::min(least, half_width(lot, least_size(lot)));
   return least;
+}
+
+double most_half_width(const std::vector<SeedLot>& lots) {
+  double most = 0;
+  for (const SeedLot& lot : lots) most = std::max(most, half_width(lot, most_size(lot)));
+  return most;
 }
 
 double largest_disc(const std::vector<SeedLot>& lots) {

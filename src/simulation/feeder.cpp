@@ -7,6 +7,7 @@
 
 #include "grains/places.hpp"
 #include "grains/size_distribution.hpp"
+#include "grains/turned_discs.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "simulation/counter.hpp"
@@ -142,25 +143,31 @@ double Feeder::radius_of(const DrawnSeed& seed) const {
   return 0.5 * seed.size * lot_of(seed).diameter;
 }
 
-void Feeder::note_waiting(const Vessel& vessel, int waiting, double time) {
+bool Feeder::belongs(const DrawnSeed& seed, const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
+  return places_.belong(at, half_width(lot_of(seed), seed.size), v, walls);
+}
+
+void Feeder::note_waiting(std::size_t v, int waiting, double time) {
+  const Vessel& vessel = model_.vessels[v];
   constexpr double noted_fraction = 0.25;
   if (!state_.warning.empty() || waiting <= noted_fraction * vessel.fill->count) return;
   state_.warning = fmt::format(
-      "{}.fill.keep falls behind: {} of {} seeds missing at {:.4g} s, for want of room below the walls' top",
-      vessel.name, waiting, vessel.fill->count, time);
+      "{}.fill.keep falls behind: {} of {} seeds missing at {:.4g} s, for want of room below the walls' top{}",
+      vessel.name, waiting, vessel.fill->count, time, places_.unseen_ways(v));
 }
 
-std::optional<double> Feeder::free_height(const Inside& inside, const FloorPlace& place, double radius, std::size_t v,
-                                          const Walls& walls) const {
+std::optional<double> Feeder::free_height(const Inside& inside, const FloorPlace& place, const DrawnSeed& seed,
+                                          std::size_t v, const Walls& walls) const {
   constexpr double least_rise = 0.01, rise_outside = 0.25;  // of the radius
   const Vessel& vessel = walls.vessels()[v];
   const Pose frame = upright_frame(vessel, walls.poses()[v]);
+  const double radius = radius_of(seed);
   const Column column(inside, place, radius);
   for (double y = column.lowest(radius); y + radius <= vessel.height;) {
     const Eigen::Vector3d at = point_in_lab(vessel, frame, {place.x(), y, place.y()});
     const double depth = places_.depth_in_walls(at, radius, walls);
     const bool clear = depth <= most_placing_overlap * radius;
-    if (clear && places_.belong(at, v, walls)) return y;
+    if (clear && belongs(seed, at, v, walls)) return y;
     // Nothing nearer is clear of the wall, or beyond the wall that shuts the place off.
     y = column.lowest(y + (clear ? std::max(-depth, rise_outside * radius) : std::max(depth, least_rise * radius)));
   }
@@ -197,7 +204,7 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
       const double radius = radius_of(*next);
       const FloorPlace place = grains.is_3d ? random_place(vessel, radius, state_.random)
                                             : FloorPlace(state_.random.uniform(radius, vessel.length - radius), 0);
-      const std::optional<double> y = free_height(inside, place, radius, v, walls);
+      const std::optional<double> y = free_height(inside, place, *next, v, walls);
       if (!y) {
         ++waiting;
         continue;
@@ -209,7 +216,7 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
       next.reset();
       ++added;
     }
-    note_waiting(vessel, waiting, time);
+    note_waiting(v, waiting, time);
   }
   return added;
 }
@@ -246,7 +253,7 @@ int Feeder::rain(std::size_t v, Grains& grains, const Walls& walls, double time)
     const Eigen::Vector3d at = point_in_lab(vessel, frame, Eigen::Vector3d(x, rain.height, z) + aside);
     const bool clear = places_.is_clear_of_grains(at, radius, grains) &&
                        places_.depth_in_walls(at, radius, walls) <= most_placing_overlap * radius;
-    if (!clear || !places_.belong(at, v, walls)) continue;
+    if (!clear || !belongs(*shower.next, at, v, walls)) continue;
     put(*shower.next, at, Eigen::Vector3d::Zero(), v, walls, grains);
     shower.next.reset();
     ++shower.arrived;
@@ -264,8 +271,8 @@ std::vector<std::string> Feeder::warnings(double time) const {
     if (!rain) continue;
     const std::int64_t due = arrivals(*rain, time), waiting = due - state_.showers[v].arrived;
     if (waiting > 1 && static_cast<double>(waiting) > noted_fraction * static_cast<double>(due))
-      warnings.push_back(fmt::format("{}.rain falls behind: {} of {} seeds still wait at {:.4g} s, for want of room",
-                                     model_.vessels[v].name, waiting, due, time));
+      warnings.push_back(fmt::format("{}.rain falls behind: {} of {} seeds still wait at {:.4g} s, for want of room{}",
+                                     model_.vessels[v].name, waiting, due, time, places_.unseen_ways(v)));
   }
   return warnings;
 }

@@ -52,8 +52,9 @@ class Feeder {
   struct Inside;
   Inside grains_inside(std::size_t vessel, const Walls& walls, const Grains& grains,
                        const std::vector<char>& touching) const;
-  std::optional<double> free_height(const Inside& inside, const FloorPlace& place, double radius, std::size_t vessel,
-                                    const Walls& walls) const;
+  std::optional<double> free_height(const Inside& inside, const FloorPlace& place, const DrawnSeed& seed,
+                                    std::size_t vessel, const Walls& walls) const;
+  bool belongs(const DrawnSeed& seed, const Eigen::Vector3d& at, std::size_t vessel, const Walls& walls) const;
   int rain(std::size_t vessel, Grains& grains, const Walls& walls, double time);
   void put(const DrawnSeed& seed, const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, std::size_t vessel,
            const Walls& walls, Grains& grains);
@@ -61,7 +62,7 @@ class Feeder {
   const SeedLot& lot_of(const DrawnSeed& seed) const;
   DrawnSeed draw(Random& random) const;  // its lot and size
   double radius_of(const DrawnSeed& seed) const;
-  void note_waiting(const Vessel& vessel, int waiting, double time);
+  void note_waiting(std::size_t vessel, int waiting, double time);
 
   const Model& model_;
   FeederState& state_;

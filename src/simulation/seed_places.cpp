@@ -30,12 +30,46 @@ Eigen::Vector3d arm(const ClumpDisc& ball) {
   return {ball.x, ball.y, ball.z};
 }
 
+/// Whether a hopper lies so over a tray that seeds come past it along the tray alone: it leaves no gap to the front or
+/// to the back that the smallest passes.
+bool is_as_deep(const Vessel& tray, const Vessel& hopper, const Scene& scene) {
+  if (scene.space == Space::two_dimensional) return true;
+  const double gap = 2 * least_half_width(scene.lots), front = hopper.front - tray.front;
+  return hopper.plan == Plan::rectangle && tray.plan == Plan::rectangle && front < gap &&
+         *tray.depth - front - *hopper.depth < gap;
+}
+
+/// A tray with the walls of a hopper for pieces, its outlets closed.
+Vessel with_hopper(Vessel tray, const Vessel& hopper) {
+  const Pose of_tray = vessel_pose(tray, 0), of_hopper = vessel_pose(hopper, 0);
+  const double turn = hopper.tilt + of_hopper.angle - tray.tilt - of_tray.angle;
+  const auto in_tray = [&](const Eigen::Vector2d& own) {
+    return in_vessel_frame(tray, of_tray, in_lab_frame(hopper, of_hopper, own));
+  };
+  std::vector<WallPiece> pieces;
+  for (const WallSegment& wall : vessel_walls(hopper))
+    pieces.push_back({.a = in_tray(wall.a),
+                      .b = in_tray(wall.b),
+                      .centre = in_tray(wall.centre),
+                      .radius = wall.radius,
+                      .from = wall.from + turn,
+                      .to = wall.to + turn});
+  for (const Hole& hole : hopper.holes)
+    pieces.push_back(
+        {.a = in_tray({hole.centre - 0.5 * hole.width, 0}), .b = in_tray({hole.centre + 0.5 * hole.width, 0})});
+  tray.pieces.insert(tray.pieces.end(), pieces.begin(), pieces.end());
+  return tray;
+}
+
 }  // namespace
 
 SeedPlaces::SeedPlaces(const Model& model) : model_(model) {
-  const double least_radius = least_half_width(model.scene.lots);
-  for (const Vessel& vessel : model.vessels) rooms_.emplace_back(vessel, model.scene.space, least_radius);
+  for (const Vessel& vessel : model.vessels) rooms_.emplace_back(vessel, model.scene.lots, model.scene.space);
   const Vessel& tray = model.vessels.front();
+  const auto is_fed = [](const Vessel& vessel) { return is_kept(vessel) || vessel.rain; };
+  if (model.vessels.size() > 1 && is_fed(tray) && tray.box && !turns_steadily(tray) &&
+      !turns_steadily(model.vessels[1]) && is_as_deep(tray, model.vessels[1], model.scene))
+    beside_hopper_.emplace(with_hopper(tray, model.vessels[1]), model.scene.lots, model.scene.space);
   if (tray.sides == Sides::periodic) along_ = tray.length;
   if (model.scene.space == Space::three_dimensional && tray.front_and_back == Sides::periodic) across_ = *tray.depth;
 }
@@ -44,31 +78,41 @@ Eigen::Vector3d SeedPlaces::own_place(const Eigen::Vector3d& at, std::size_t v, 
   return point_in_vessel(model_.vessels[v], walls.poses()[v], at);
 }
 
-bool SeedPlaces::is_in_room(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
+bool SeedPlaces::is_in_room(const Eigen::Vector3d& at, double half_width, std::size_t v, const Walls& walls) const {
   const Vessel& vessel = model_.vessels[v];
+  const FreeRoom& room = rooms_[v].of(half_width);
   const auto holds = [&](const Pose& pose, bool upright) {
     Eigen::Vector3d own = point_in_vessel(vessel, pose, at);
     if (upright && own.y() > vessel.height)  // from there it falls straight down
       own -= aside_while_rising(vessel, pose, own.y() - vessel.height);
-    return rooms_[v].holds(own);
+    return room.holds(own);
   };
   const Pose& pose = walls.poses()[v];
   if (holds(pose, !turns_over(vessel) && stands(vessel, pose))) return true;
   return turns_over(vessel) && drum_of(vessel) == nullptr && holds({}, true);
 }
 
+std::string SeedPlaces::unseen_ways(std::size_t v) const {
+  const std::optional<double> missed = rooms_[v].of_smallest().missed_width();
+  if (!missed) return "";
+  return fmt::format(" (ways narrower than {:.3g} mm are not looked for in a {} so large for its seeds)", 1e3 * *missed,
+                     model_.vessels[v].name);
+}
+
 bool SeedPlaces::lies_in_hopper_within(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
   for (std::size_t other = v + 1; other < rooms_.size(); ++other)
-    if (rooms_[other].holds_below_top(own_place(at, other, walls))) return true;
+    if (rooms_[other].of_smallest().holds_below_top(own_place(at, other, walls))) return true;
   return false;
 }
 
-bool SeedPlaces::belong(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
-  return is_in_room(at, v, walls) && !lies_in_hopper_within(at, v, walls);
+bool SeedPlaces::belong(const Eigen::Vector3d& at, double half_width, std::size_t v, const Walls& walls) const {
+  const bool beside = v == 0 && beside_hopper_;
+  return is_in_room(at, half_width, v, walls) && !lies_in_hopper_within(at, v, walls) &&
+         (!beside || beside_hopper_->of(half_width).holds(own_place(at, v, walls)));
 }
 
 bool SeedPlaces::counts_in(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
-  return (v == 0 || is_in_room(at, v, walls)) && !lies_in_hopper_within(at, v, walls);
+  return (v == 0 || is_in_room(at, 0, v, walls)) && !lies_in_hopper_within(at, v, walls);
 }
 
 double SeedPlaces::depth_in_walls(const Eigen::Vector3d& at, double radius, const Walls& walls) const {
@@ -129,8 +173,11 @@ std::optional<std::string> SeedPlaces::fault_among_walls(const Grains& grains, s
   const double depth = relative_depth_in_walls(grains, i, walls);
   if (depth > most_placing_overlap) return fmt::format("lies {:.3g} of its radius deep in a wall", depth);
   // Where the centre is in a gap of a clump, its thickest ball says where it is; over an open side that may hang out.
-  const Eigen::Vector3d centre = grains.place(i), ball = centre + arm(thickest(balls_of(grains, i)));
-  if (!is_in_room(ball, vessel, walls) && !is_in_room(centre, vessel, walls))
+  const ClumpDisc ball = thickest(balls_of(grains, i));
+  const Eigen::Vector3d centre = grains.place(i);
+  const bool all_known = !rooms_[vessel].of(ball.radius).missed_width();
+  if (all_known && !is_in_room(centre + arm(ball), ball.radius, vessel, walls) &&
+      !is_in_room(centre, ball.radius, vessel, walls))
     return "lies where no seed comes to from the top of the " + model_.vessels[vessel].name;
   return std::nullopt;
 }

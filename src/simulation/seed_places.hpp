@@ -21,16 +21,20 @@ class SeedPlaces {
  public:
   explicit SeedPlaces(const Model& model);
 
-  /// Whether the centre of a seed (m, lab) belongs to a vessel (0: the tray) as it stands now.
-  bool belong(const Eigen::Vector3d& at, std::size_t vessel, const Walls& walls) const;
+  /// What a message that no place was found in a vessel adds: how narrow ways are not looked for; mostly nothing.
+  std::string unseen_ways(std::size_t vessel) const;
 
-  /// Whether it lies in the vessel's room, a hopper in it or not. One that turns over and over and is no drum counts as
-  /// it stands at rest, too.
-  bool is_in_room(const Eigen::Vector3d& at, std::size_t vessel, const Walls& walls) const;
+  /// Whether the centre of a seed (m, lab) of this half width (m, `half_width`) belongs to a vessel (0: the tray) as it
+  /// stands now: in a tray one that comes there beside a hopper, too.
+  bool belong(const Eigen::Vector3d& at, double half_width, std::size_t vessel, const Walls& walls) const;
+
+  /// Whether it lies in the vessel's room for such seeds, a hopper in it or not. One that turns over and over and is no
+  /// drum counts as it stands at rest, too.
+  bool is_in_room(const Eigen::Vector3d& at, double half_width, std::size_t vessel, const Walls& walls) const;
 
   /// Whether a seed whose centre lies at `at` (m, lab), between the vessel's ends and no higher than its top, counts as
-  /// the vessel's own: beneath the slopes of a hopper lie the tray's seeds, in a hopper that dips into the tray its
-  /// own.
+  /// the vessel's own, of whatever size: beneath the slopes of a hopper lie the tray's seeds, in a hopper that dips
+  /// into the tray its own.
   bool counts_in(const Eigen::Vector3d& at, std::size_t vessel, const Walls& walls) const;
 
   /// m, by how much a ball at `at` (m, lab) reaches into the nearest wall of any vessel; negative: it is clear.
@@ -61,8 +65,9 @@ class SeedPlaces {
   std::optional<std::string> overlapped_grain(const Grains& grains, std::size_t i) const;
 
   const Model& model_;
-  std::deque<FreeRoom> rooms_;     // by vessel; each points into itself
-  double along_ = 0, across_ = 0;  // m, periods of the tray; 0: none
+  std::deque<FreeRooms> rooms_;             // by vessel
+  std::optional<FreeRooms> beside_hopper_;  // of the tray, as it stands at first, where a hopper may shut its mouth
+  double along_ = 0, across_ = 0;           // m, periods of the tray; 0: none
 };
 
 /// Why a run stops whose grain `i` was put in with this `fault`.

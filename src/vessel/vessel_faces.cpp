@@ -193,8 +193,8 @@ void add_front_and_back(const Vessel& vessel, std::vector<Face>& faces) {
 
 /// A drum's discs; where the pieces make no drum the front and back are missing, as floor and end walls are.
 void add_ends_of_drum(const Vessel& vessel, std::vector<Face>& faces) {
-  const WallPiece* circle = drum_of(vessel);
-  if (circle == nullptr || vessel.front_and_back != Sides::walls) return;
+  const std::optional<DrumCircle> circle = drum_of(vessel);
+  if (!circle || vessel.front_and_back != Sides::walls) return;
   for (const double z : {0.0, *vessel.depth}) {
     Face disc;
     disc.kind = Face::Kind::revolved;

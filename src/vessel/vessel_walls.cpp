@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "portable_math/functions.hpp"
@@ -221,10 +222,6 @@ double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about) {
   return largest;
 }
 
-bool is_full_circle(const WallPiece& piece) {
-  return piece.radius > 0 && piece.to - piece.from >= 2 * std::numbers::pi * (1 - 1e-9);
-}
-
 namespace {
 
 /// Distance (m) of the furthest point of a piece, from above.
@@ -233,17 +230,51 @@ double furthest(const WallPiece& piece, const Eigen::Vector2d& from) {
   return std::max((piece.a - from).norm(), (piece.b - from).norm());
 }
 
+constexpr double of_drum_slack = 1e-4;  // of its radius, and rad: drawings are no more exact
+
+/// Whether arcs about one centre leave no gap.
+bool close_all_round(std::vector<WallPiece> arcs) {
+  constexpr double turn = 2 * std::numbers::pi;
+  for (WallPiece& arc : arcs) {
+    const double turns = std::floor(arc.from / turn);
+    arc.from -= turns * turn, arc.to -= turns * turn;
+  }
+  std::ranges::sort(arcs, {}, &WallPiece::from);
+  double reached = arcs.front().from;
+  for (const WallPiece& arc : arcs)
+    if (arc.from <= reached + of_drum_slack) reached = std::max(reached, arc.to);
+  return reached >= arcs.front().from + turn - of_drum_slack;
+}
+
 }  // namespace
 
-const WallPiece* drum_of(const Vessel& vessel) {
-  if (vessel.box) return nullptr;
-  const auto found = std::ranges::find_if(vessel.pieces, [&](const WallPiece& circle) {
-    return is_full_circle(circle) && is_of_plane(circle) &&
-           std::ranges::all_of(vessel.pieces, [&](const WallPiece& other) {
-             return !is_of_plane(other) || furthest(other, circle.centre) <= circle.radius * (1 + 1e-9);
-           });
-  });
-  return found == vessel.pieces.end() ? nullptr : &*found;
+bool DrumCircle::has(const Eigen::Vector2d& centre_of_arc, double radius_of_arc) const {
+  const double slack = of_drum_slack * radius;
+  return std::abs(radius_of_arc - radius) <= slack && (centre_of_arc - centre).norm() <= slack;
+}
+
+std::optional<DrumCircle> drum_of(const Vessel& vessel) {
+  if (vessel.box) return std::nullopt;
+  for (const WallPiece& piece : vessel.pieces) {
+    if (piece.radius == 0 || !is_of_plane(piece)) continue;
+    DrumCircle circle{piece.centre, piece.radius};
+    const bool holds_all = std::ranges::all_of(vessel.pieces, [&](const WallPiece& other) {
+      return !is_of_plane(other) || furthest(other, circle.centre) <= circle.radius * (1 + 2 * of_drum_slack);
+    });
+    std::vector<WallPiece> arcs;
+    std::ranges::copy_if(vessel.pieces, std::back_inserter(arcs), [&](const WallPiece& other) {
+      return is_of_plane(other) && other.radius > 0 && circle.has(other.centre, other.radius);
+    });
+    if (!holds_all || !close_all_round(arcs)) continue;
+    for (const WallPiece& arc : arcs)
+      if (arc.radius < circle.radius) circle = {arc.centre, arc.radius};
+    return circle;
+  }
+  return std::nullopt;
+}
+
+bool is_only_drawn(const Vessel& vessel) {
+  return !vessel.box && !drum_of(vessel);
 }
 
 double distance_to_wall(const WallSegment& wall, const Eigen::Vector2d& point) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,11 +54,21 @@ double highest_floor(const Vessel& vessel);
 /// Distance, in m, of the furthest wall from the point `about` of the vessel's frame (of arcs: an upper bound).
 double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about);
 
-bool is_full_circle(const WallPiece& piece);
+/// The circle that closes a drum, m.
+struct DrumCircle {
+  Eigen::Vector2d centre;
+  double radius;
 
-/// The full circle that a vessel without floor and end walls is closed by all round, all its other pieces lying within
-/// it; none: nullptr.
-const WallPiece* drum_of(const Vessel& vessel);
+  /// Whether an arc of this centre and radius (m) lies on it.
+  bool has(const Eigen::Vector2d& centre_of_arc, double radius_of_arc) const;
+};
+
+/// The circle that a vessel without floor and end walls is closed by all round, all its other pieces lying within it:
+/// drawn as one, as arcs that close, or more than once. Of circles that lie on each other the smallest.
+std::optional<DrumCircle> drum_of(const Vessel& vessel);
+
+/// Whether the vessel has neither floor and end walls nor is a drum: its room is what lies between its pieces.
+bool is_only_drawn(const Vessel& vessel);
 
 /// Distance, in m, of a point of the vessel's frame from a wall.
 double distance_to_wall(const WallSegment& wall, const Eigen::Vector2d& point);

@@ -98,6 +98,65 @@ TEST_P(Room, OfADrumIsReachedAsIfItsUpperHalfWereOpen) {
   EXPECT_FALSE(holds(v, 0.002, 0.002)) << "in the corner beside it";
 }
 
+/// Two slopes that end over an outlet, and beside them places that lie as open above.
+TEST_P(Room, OfDrawnWallsAloneLiesBetweenThem) {
+  Vessel v = box();
+  v.box = false;
+  v.pieces = {{.a = {0.01, 0.05}, .b = {0.04, 0.001}}, {.a = {0.06, 0.001}, .b = {0.09, 0.05}}};
+  EXPECT_TRUE(holds(v, 0.05, 0.004)) << "over the outlet";
+  EXPECT_TRUE(holds(v, 0.05, 0.0005)) << "in it";
+  EXPECT_FALSE(holds(v, 0.02, 0.0005)) << "beside it";
+  EXPECT_TRUE(holds(v, 0.02, 0.045));
+  EXPECT_TRUE(holds(v, 0.02, 0.055)) << "heaped over the rim";
+  EXPECT_FALSE(holds(v, 0.01, 0.01)) << "beside and beneath a slope";
+  EXPECT_FALSE(holds(v, 0.005, 0.04));
+  EXPECT_FALSE(holds(v, 0.095, 0.055));
+  v.pieces = {{.a = {0.01, 0.02}, .b = {0.09, 0.02}}};
+  EXPECT_TRUE(holds(v, 0.05, 0.03)) << "on a plate";
+  EXPECT_FALSE(holds(v, 0.005, 0.03));
+  EXPECT_FALSE(holds(v, 0.05, 0.01)) << "beneath it";
+}
+
+TEST(Room3d, OfADrawnConeLiesWithinIt) {
+  Vessel v;
+  v.name = "hopper";
+  v.length = v.depth.emplace(0.1), v.height = 0.06, v.box = false;
+  v.pieces = {{.a = {0.01, 0}, .b = {0.04, 0.05}, .about = Eigen::Vector2d(0.05, 0.05)}};
+  const FreeRoom room(v, Space::three_dimensional, radius);
+  EXPECT_TRUE(room.holds({0.05, 0.01, 0.05}));
+  EXPECT_TRUE(room.holds({0.07, 0.04, 0.06}));
+  EXPECT_FALSE(room.holds({0.05, 0.02, 0.09})) << "beside it, and between its front and its back";
+  EXPECT_FALSE(room.holds({0.09, 0.02, 0.05}));
+}
+
+/// A slit of 3 mm, and seeds of 2 and of 4 mm.
+TEST_P(Room, IsOfEachWidthOfSeed) {
+  Vessel v = box();
+  v.pieces = {{.a = {0, 0.03}, .b = {0.0485, 0.03}}, {.a = {0.0515, 0.03}, .b = {0.1, 0.03}}};
+  std::vector<SeedLot> lots = {{"large", 2 * radius, 4e-5, Shape::ball, 0.5},
+                               {"small", radius, 5e-6, Shape::ball, 0.5}};
+  const FreeRooms rooms(v, lots, GetParam());
+  const Eigen::Vector3d beneath(0.02, 0.01, v.depth.value_or(0) / 2), above(0.02, 0.05, v.depth.value_or(0) / 2);
+  EXPECT_TRUE(rooms.of(0.5 * radius).holds(beneath));
+  EXPECT_TRUE(rooms.of_smallest().holds(beneath));
+  EXPECT_FALSE(rooms.of(radius).holds(beneath));
+  EXPECT_TRUE(rooms.of(radius).holds(above));
+}
+
+/// As few cells as they are, a gap of four seeds' widths is none that is known of.
+TEST_P(Room, SaysHowNarrowWaysItMisses) {
+  Vessel v = box();
+  v.pieces = {{.a = {0, 0.03}, .b = {0.084, 0.03}}};
+  const FreeRoom fine(v, GetParam(), radius), coarse(v, GetParam(), radius, 200);
+  const Eigen::Vector3d beneath(0.02, 0.01, v.depth.value_or(0) / 2);
+  EXPECT_TRUE(fine.holds(beneath));
+  EXPECT_FALSE(fine.missed_width());
+  EXPECT_FALSE(coarse.holds(beneath));
+  EXPECT_GT(coarse.missed_width(), 0.016);
+  v.pieces.clear();
+  EXPECT_FALSE(FreeRoom(v, GetParam(), radius, 200).missed_width()) << "nothing is in the way";
+}
+
 TEST_P(Room, ReachesUnderWhatStandsOverTheTop) {
   Vessel v = box();
   v.pieces = {{.a = {0.02, 0.05}, .b = {0.05, 0.08}}, {.a = {0.05, 0.08}, .b = {0.08, 0.05}}};

@@ -193,6 +193,45 @@ TEST(Packing, ClumpsArePouredIntoADrumUpToItsWall) {
   }
 }
 
+/// As two arcs that close, as many, turned, and twice, the second time a hair larger.
+TEST(Packing, ADrumIsOneHoweverItsCircleIsDrawn) {
+  constexpr double pi = std::numbers::pi;
+  Vessel drum = vessel(Packing::poured, 60);
+  drum.height = drum.length, drum.box = false;
+  const auto arc = [](double from, double to, double radius = 0.05) {
+    return WallPiece{.centre = {0.05, 0.05}, .radius = radius, .from = from, .to = to};
+  };
+  const std::vector<WallPiece> circle = {arc(0, 2 * pi)};
+  const std::vector<std::vector<WallPiece>> others = {
+      {arc(0, pi), arc(pi, 2 * pi)},
+      {arc(0.5 * pi, 1.5 * pi), arc(-0.5 * pi, 0.5 * pi)},
+      {arc(pi, 2 * pi), arc(0, 0.7 * pi), arc(0.7 * pi, pi)},
+      {arc(0, 2 * pi), arc(0, 2 * pi)},
+      {arc(0, 2 * pi, 0.0500001), arc(0, 2 * pi)},
+      {arc(0, pi), arc(0, 2 * pi)},
+  };
+  for (const Packing packing : {Packing::poured, Packing::hexagonal}) {
+    drum.fill->packing = packing;
+    const auto packed = [&](const std::vector<WallPiece>& pieces) {
+      drum.pieces = pieces;
+      Random random(1);
+      return pack(drum, one_lot(), Space::two_dimensional, random);
+    };
+    const std::vector<PackedGrain> once = packed(circle);
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      const std::vector<PackedGrain> all = packed(others[k]);
+      for (std::size_t i = 0; i < all.size(); ++i)
+        ASSERT_LT(std::hypot(all[i].x - once[i].x, all[i].y - once[i].y), k == 4 || k == 1 ? 1e-3 : 1e-12)
+            << "circle " << k << ", grain " << i;
+    }
+  }
+  for (const std::vector<WallPiece>& open : {std::vector{arc(0, pi)}, std::vector{arc(0, pi), arc(1.1 * pi, 2 * pi)},
+                                             std::vector{arc(0, pi), arc(pi, 2 * pi, 0.051)}}) {
+    drum.pieces = open;
+    EXPECT_FALSE(drum_of(drum));
+  }
+}
+
 TEST(Packing, RandomSeedActsAndRepeats) {
   for (const Packing packing : {Packing::poured, Packing::layers, Packing::hexagonal}) {
     const auto first = [&](std::uint64_t seed) {

@@ -236,6 +236,27 @@ TEST_P(Insertion, AKeptTrayIsFedBesideAHopperThatDipsIntoIt) {
   }
 }
 
+/// Where it leaves a gap that seeds pass they lie beneath it too, otherwise they wait.
+TEST_P(Insertion, AKeptTrayIsNotFedBeneathAHopperThatShutsIt) {
+  for (const double gap : {0.003, 0.006}) {
+    Scene scene = soft(GetParam());
+    scene.tray.rain = Rain{400, 0, 0.08, 0.01};
+    Vessel hopper = hopper_over(scene);
+    hopper.origin = {gap, 0.02}, hopper.length = 0.08 - 2 * gap;
+    hopper.fill.reset();
+    scene.hopper = hopper;
+    scene.run.duration = 0.1;
+    const vibrosow::Run run = simulate(scene);
+    if (gap > diameter) {
+      EXPECT_GT(run.balance.put_in, 20) << gap;
+    } else {
+      EXPECT_EQ(run.balance.put_in, 0) << gap;
+      ASSERT_FALSE(run.warnings.empty());
+      EXPECT_EQ(run.warnings.back().kind, DoubtKind::feeder_behind);
+    }
+  }
+}
+
 TEST_P(Insertion, RowsLieOverAFunnelAndOverDrawnSlopes) {
   for (const Packing packing : {Packing::layers, Packing::hexagonal})
     for (const bool drawn : {false, true}) {
@@ -310,6 +331,49 @@ TEST_P(Insertion, RainBesideAShelfComesUnderItToo) {
   scene.tray.rain = Rain{100, 0, 0.04, 0.02};
   scene.run.duration = 0.2;
   EXPECT_GT(expect_all_clear(scene, 0, [](const Eigen::Vector3d& own) { return own.y() < 0.03; }), 15u);
+}
+
+/// Two shelves with a slit of 3 mm, and seeds of two sizes: the small ones alone are put beneath.
+TEST_P(Insertion, OnlySmallSeedsArePutBehindASlitThatLargeOnesDoNotPass) {
+  int small_ones = 0;
+  for (const bool of_one_lot : {false, true})
+    for (const bool rains : {false, true}) {
+      Scene scene = soft(GetParam());
+      scene.lots[0].number_fraction = 0.5;
+      scene.lots.push_back(scene.lots[0]);
+      scene.lots[1].name = "b", scene.lots[1].diameter = 2e-3, scene.lots[1].mass = 5e-6;
+      if (of_one_lot) {
+        scene.lots.pop_back();
+        scene.lots[0].number_fraction = 1;
+        scene.lots[0].diameter = 3e-3;
+        SizeDistribution& sizes = scene.lots[0].sizes;
+        sizes.kind = SizeDistribution::Kind::uniform;
+        sizes.least = 2e-3, sizes.most = 4e-3;
+      }
+      scene.tray.pieces = {{.a = {0, 0.03}, .b = {0.0385, 0.03}}, {.a = {0.0415, 0.03}, .b = {0.08, 0.03}}};
+      scene.run.duration = 0.1;
+      if (rains)
+        scene.tray.rain = Rain{400, 0, 0.08, 0.015};
+      else
+        scene.tray.fill = Fill{GetParam() == Space::two_dimensional ? 40 : 200, Packing::poured, 1e-3, true};
+      Model model = prepare(scene);
+      if (!rains) model.vessels[0].fill->count *= 2, model.scene.tray.fill->count *= 2;
+      Simulation run(model, starting_state(model, 1, starting_state(prepare(scene), 1).grains));
+      const std::int64_t put = run.grains().next_id;
+      std::int64_t last = put - 1;
+      while (!run.at_end() && run.step()) {
+        const Grains& g = run.grains();
+        for (std::size_t i = 0; i < g.size(); ++i) {
+          if (g.id[i] <= last) continue;
+          last = g.id[i];
+          if (g.y[i] > 0.03) continue;
+          EXPECT_LT(g.kind(i).radius, 1.5e-3 * 1.25) << "grain " << g.id[i];
+          ++small_ones;
+        }
+      }
+      EXPECT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
+    }
+  EXPECT_GT(small_ones, 2);
 }
 
 /// A seed is put in by its centre; the thickest ball of a clump may then hang over an open edge.
