@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -37,7 +39,7 @@ std::string name_of_piece(const Vessel& vessel, std::size_t k) {
 
 // Pieces over holes.
 
-/// m.
+/// m, or s.
 struct Stretch {
   double from, to;
 };
@@ -171,15 +173,29 @@ bool is_come_to(const Hole& hole, const FreeRoom& room, double half_width) {
 void warn_of_holes_shut_off(const Scene& scene, const Vessel& vessel, const std::vector<bool>& covered,
                             Warnings& warnings) {
   if (vessel.pieces.empty() || vessel.holes.empty()) return;
-  constexpr double most_cells = 1e6;  // a hole that lies open above needs none
+  constexpr double few_cells = 1e6;  // a hole that lies open above needs none
   const double half_width = least_half_width(scene.lots);
-  const FreeRoom room(vessel, scene.space, half_width, most_cells);
+  const FreeRoom quick(vessel, scene.space, half_width, few_cells);
+  // Where few cells miss narrow ways, as many are taken as where seeds are put in.
+  std::optional<FreeRoom> fine;
+  const auto is_shut_off = [&](const Hole& hole) {
+    if (is_come_to(hole, quick, half_width)) return false;
+    if (!quick.missed_width()) return true;
+    if (!fine) fine.emplace(vessel, scene.space, half_width);
+    return !is_come_to(hole, *fine, half_width);
+  };
   std::string holes;
   for (std::size_t h = 0; h < vessel.holes.size(); ++h)
-    if (!covered[h] && vessel.holes[h].width >= 2 * half_width && !is_come_to(vessel.holes[h], room, half_width))
+    if (!covered[h] && vessel.holes[h].width >= 2 * half_width && is_shut_off(vessel.holes[h]))
       holes += fmt::format("{}hole {}", holes.empty() ? "" : ", ", h + 1);
-  if (!holes.empty())
-    warnings.push_back(fmt::format("{}.pieces: shut off {}: no seed comes there from above", vessel.name, holes));
+  if (holes.empty()) return;
+  const std::optional<double> missed = fine ? fine->missed_width() : std::nullopt;
+  warnings.push_back(
+      missed
+          ? fmt::format("{}.pieces: shut off {}, or leave ways narrower than {}: such are not looked for among pieces "
+                        "so large for their seeds",
+                        vessel.name, holes, in_mm(*missed))
+          : fmt::format("{}.pieces: shut off {}: no seed comes there from above", vessel.name, holes));
 }
 
 // Vessels that pass through each other.
@@ -190,8 +206,11 @@ struct Box3 {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = Eigen::Vector3d::Constant(-1e300);
 
   void include(const Eigen::Vector3d& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); }
-  bool meets(const Box3& other) const {
-    return (low.array() <= other.high.array()).all() && (high.array() >= other.low.array()).all();
+  double gap(const Box3& other) const {
+    return (low - other.high).cwiseMax(other.low - high).cwiseMax(Eigen::Vector3d::Zero()).norm();
+  }
+  Eigen::Vector3d corner(int k) const {
+    return {(k & 1 ? high : low).x(), (k & 2 ? high : low).y(), (k & 4 ? high : low).z()};
   }
 };
 
@@ -225,6 +244,41 @@ std::vector<Line> lines_across(const Face& plate) {
   return across;
 }
 
+/// Along which axes of the lab two vessels do not move past each other; where they are tilted or turn, along none of
+/// the plane.
+using StillAxes = std::array<bool, 3>;
+
+/// m, how far a vessel moves along each axis of its frame: an upper bound.
+Eigen::Array3d moved_along(const Vessel& vessel) {
+  Eigen::Array3d moved = Eigen::Array3d::Zero();
+  const auto add = [&moved](const HarmonicMotion& m) {
+    const auto [up, along] = portable_math::sine_cosine(m.direction);
+    const auto [across, in_plane] = portable_math::sine_cosine(m.across);
+    moved += m.amplitude * Eigen::Array3d(along * in_plane, up * in_plane, across).abs();
+  };
+  const auto add_range = [&moved](int axis, const std::vector<double>& places) {
+    if (places.empty()) return;
+    const auto [least, most] = std::ranges::minmax(places);
+    moved[axis] += most - least;
+  };
+  const VesselMotion* motion = vessel.motion && moves(*vessel.motion) ? &*vessel.motion : nullptr;
+  if (const auto* harmonic = motion ? std::get_if<HarmonicMotion>(motion) : nullptr) add(*harmonic);
+  if (const auto* sum = motion ? std::get_if<SumMotion>(motion) : nullptr)
+    for (const HarmonicMotion& part : sum->components) add(part);
+  if (const auto* table = motion ? std::get_if<TableMotion>(motion) : nullptr)
+    add_range(0, table->x), add_range(1, table->y), add_range(2, table->z);
+  if (vessel.tilt != 0 || (motion && turns(*motion)))
+    moved.head<2>().setConstant(std::numeric_limits<double>::infinity());
+  if (turns_steadily(vessel) && !turns_over(vessel)) moved.setConstant(std::numeric_limits<double>::infinity());
+  return moved;
+}
+
+StillAxes still_axes(const Vessel& one, const Vessel& other) {
+  constexpr double rounding = 1e-9;  // m
+  const Eigen::Array3d moved = moved_along(one) + moved_along(other);
+  return {moved.x() < rounding, moved.y() < rounding, moved.z() < rounding};
+}
+
 /// A vessel's walls in its own frame, as lines to be moved and as surfaces to be met. m.
 class OwnWalls {
  public:
@@ -232,18 +286,23 @@ class OwnWalls {
       : vessel_(vessel), path_(vessel), walls_({at_rest(vessel)}, space), is_3d_(space != Space::two_dimensional) {
     if (is_3d())
       for (const Face& face : vessel_faces(vessel)) {
-        walls_by_name_.push_back(face.name);
+        walls_by_name_.push_back(face.name), boxes_.emplace_back();
         for (Line& line : face_lines(face)) add(std::move(line), face.name);
         if (face.kind == Face::Kind::plate && !face.round)
           for (Line& line : lines_across(face)) add(std::move(line), face.name);
       }
     else
       for (const WallSegment& wall : vessel_walls(vessel)) {
-        walls_by_name_.push_back(wall.name);
+        walls_by_name_.push_back(wall.name), boxes_.emplace_back();
         Line line;
         for (const Eigen::Vector2d& point : wall_points(wall)) line.emplace_back(point.x(), point.y(), 0);
         add(std::move(line), wall.name);
       }
+    for (Box3& box : boxes_) {  // arcs and rims are lines between points of theirs
+      flat_along_.push_back(flat_along(box));
+      const Eigen::Vector3d beyond = Eigen::Vector3d::Constant(1e-3 * (box.high - box.low).norm());
+      box.low -= beyond, box.high += beyond;
+    }
   }
 
   struct NamedLine {
@@ -252,6 +311,40 @@ class OwnWalls {
   };
   const std::vector<NamedLine>& lines() const { return lines_; }
   const Box3& box() const { return box_; }
+  bool is_3d() const { return !plane_alone && is_3d_; }
+
+  /// m, no more than from a line of this vessel's frame to the nearest wall that it may pass, where it does not move
+  /// along the axes `still` and lies beyond a wall's surface by `slack` (m) at most; in 2D as near as the points
+  /// of the line or of walls come, where they are nearer than `near`.
+  double gap(const Line& line, double near, double slack, const StillAxes& still) const {
+    const Box3 box = box_of(line);
+    double gap = std::numeric_limits<double>::infinity();
+    for (std::size_t wall = 0; wall < walls_.count(); ++wall) {
+      const int flat = flat_along_[wall];
+      if (flat >= 0 && still[static_cast<std::size_t>(flat)]) {
+        const double at = 0.5 * (boxes_[wall].low[flat] + boxes_[wall].high[flat]);
+        if (box.low[flat] > at - slack || box.high[flat] < at + slack) continue;  // it stays on its side
+      }
+      double apart = boxes_[wall].gap(box);
+      if (apart < near && !is_3d()) {
+        apart = std::numeric_limits<double>::infinity();
+        for (const Eigen::Vector3d& point : line) apart = std::min(apart, std::sqrt(walls_.distance2(wall, point)));
+      }
+      gap = std::min(gap, apart);
+    }
+    return gap;
+  }
+
+  /// m/s, of its fastest wall.
+  double speed(double time) const {
+    const Pose at = pose(time);
+    const PoseRate rate = path_.rate(time);
+    double fastest = 0;
+    for (int k = 0; k < 8; ++k)
+      fastest = std::max(fastest, point_velocity(vessel_, at, rate, to_lab(at, box_.corner(k))).norm());
+    return fastest;
+  }
+
   Pose pose(double time) const { return path_.pose(time); }
   Eigen::Vector3d to_lab(const Pose& pose, const Eigen::Vector3d& own) const {
     return point_in_lab(vessel_, pose, own);
@@ -262,19 +355,19 @@ class OwnWalls {
 
   /// The wall that a straight way passes through, at least `slack` from the wall's own ends.
   const std::string* met_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double slack) const {
+    const Box3 way = box_of({from, to});
     for (std::size_t wall = 0; wall < walls_.count(); ++wall)
-      if (passes(wall, from, to, slack)) return &walls_by_name_[wall];
+      if (boxes_[wall].gap(way) == 0 && passes(wall, from, to, slack)) return &walls_by_name_[wall];
     return nullptr;
   }
 
   bool is_clear(const Eigen::Vector3d& at, double slack) const {
     for (std::size_t wall = 0; wall < walls_.count(); ++wall)
-      if (is_near(wall, at, slack)) return false;
+      if (boxes_[wall].gap({at, at}) <= slack && is_near(wall, at, slack)) return false;
     return true;
   }
 
  private:
-  bool is_3d() const { return !plane_alone && is_3d_; }
   /// How a place stands to a wall: on which side, and whether over it and not beyond its ends.
   struct Seen {
     double side;
@@ -287,8 +380,15 @@ class OwnWalls {
     return vessel;
   }
 
+  /// The axis across a plate, or a line, that lies along the others; none: -1.
+  int flat_along(const Box3& box) const {
+    for (int axis = 0; axis < (is_3d() ? 3 : 2); ++axis)
+      if (box.low[axis] == box.high[axis]) return axis;
+    return -1;
+  }
+
   void add(Line line, const std::string& name) {
-    for (const Eigen::Vector3d& point : line) box_.include(point);
+    for (const Eigen::Vector3d& point : line) box_.include(point), boxes_.back().include(point);
     lines_.push_back({name, std::move(line)});
   }
 
@@ -325,27 +425,38 @@ class OwnWalls {
   bool is_3d_;
   std::vector<NamedLine> lines_;
   std::vector<std::string> walls_by_name_;
+  std::vector<Box3> boxes_;      // by wall
+  std::vector<int> flat_along_;  // by wall
   Box3 box_;
 };
 
 /// Follows the lines of one vessel past the other. What touches without going further than `slack` (m) does not pass.
 class Passage {
  public:
-  Passage(const OwnWalls& moved, const OwnWalls& other, double slack)
-      : moved_(moved), other_(other), slack_(slack), clear_(moved.lines().size()) {}
+  Passage(const OwnWalls& moved, const OwnWalls& other, double slack, const StillAxes& still)
+      : moved_(moved), other_(other), slack_(slack), still_(still), clear_(moved.lines().size()) {}
 
   /// "tray floor 1 and hopper right wall", that pass through each other at `time` (s) or have since the last call.
-  std::optional<std::string> at(double time) {
+  /// What is nearer than `near` (m) is looked at for how near it is. In 3D only that is looked
+  /// at, so the times lie no further apart than `gap`, or `near`, allows.
+  std::optional<std::string> at(double time, double near) {
     const Pose pose = moved_.pose(time), of_other = other_.pose(time);
+    gap_ = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < moved_.lines().size(); ++k) {
       const auto& [name, own] = moved_.lines()[k];
       Line line;
       for (const Eigen::Vector3d& point : own) line.push_back(other_.from_lab(of_other, moved_.to_lab(pose, point)));
       const bool first = clear_[k].empty();
       if (first) clear_[k] = line;
+      const double gap = other_.gap(line, near, slack_, still_);
+      gap_ = std::min(gap_, gap);
+      if (gap > near && other_.is_3d()) {
+        clear_[k] = line;
+        continue;
+      }
       Box3 swept = box_of(line);
       for (const Eigen::Vector3d& point : clear_[k]) swept.include(point);
-      if (!swept.meets(other_.box())) {
+      if (swept.gap(other_.box()) > 0) {
         clear_[k] = line;
         continue;
       }
@@ -359,6 +470,9 @@ class Passage {
     return std::nullopt;
   }
 
+  /// m, no more than the lines were from the other vessel's walls at the last call.
+  double gap() const { return gap_; }
+
  private:
   /// By the straight line between two of its points, further than `slack` from these.
   const std::string* crossed(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
@@ -370,33 +484,157 @@ class Passage {
 
   const OwnWalls &moved_, &other_;
   double slack_;
+  StillAxes still_;
+  double gap_ = 0;
   std::vector<Line> clear_;  // by line, where its points were last that were on no wall
 };
 
-/// Spread evenly over the run, but in step with no motion.
-std::vector<double> times_to_look_at(double duration) {
-  constexpr int count = 100;
-  constexpr double golden = 0.6180339887498949;
-  std::vector<double> times = {0};
-  for (int k = 1; k <= count; ++k) times.push_back(duration * (k * golden - std::floor(k * golden)));
-  std::ranges::sort(times);
-  return times;
+/// A part of a motion that swings, or turns: a point moves by at most `reach` s(t) sin(2 pi f t).
+struct Swing {
+  double frequency, reach;  // Hz, m
+  double ramp, stop, stop_ramp;
+
+  double acceleration() const { return 4 * std::numbers::pi * std::numbers::pi * frequency * frequency * reach; }
+};
+
+std::vector<Swing> swings_of(const Vessel& vessel) {
+  std::vector<Swing> swings;
+  if (!vessel.motion) return swings;
+  const auto add = [&swings](const auto& m, double frequency, double reach) {
+    swings.push_back({frequency, reach, m.ramp, m.stop, m.stop_ramp});
+  };
+  const double speed = motion_bounds(vessel).speed;
+  if (const auto* harmonic = std::get_if<HarmonicMotion>(&*vessel.motion))
+    add(*harmonic, harmonic->frequency, harmonic->amplitude);
+  else if (const auto* sum = std::get_if<SumMotion>(&*vessel.motion))
+    for (const HarmonicMotion& part : sum->components) add(part, part.frequency, part.amplitude);
+  else if (const auto* rocking = std::get_if<RockingMotion>(&*vessel.motion))
+    add(*rocking, rocking->frequency, speed / (2 * std::numbers::pi * rocking->frequency));
+  else if (const auto* turning = std::get_if<TurningMotion>(&*vessel.motion))
+    add(*turning, std::abs(turning->angular_velocity) / (2 * std::numbers::pi),
+        speed / std::abs(turning->angular_velocity));
+  return swings;
 }
 
+/// Hz, of which both are multiples, to rounding.
+double common_frequency(double a, double b) {
+  const double rounding = 1e-6 * b;
+  while (b > rounding) a = std::exchange(b, std::abs(std::remainder(a, b)));
+  return a;
+}
+
+/// How two vessels move past each other over a run.
+class Meeting {
+ public:
+  Meeting(const Scene& scene, const OwnWalls& tray, const OwnWalls& hopper) : tray_(tray), hopper_(hopper) {
+    double table_ends = 0;
+    for (const Vessel* vessel : {&scene.tray, &*scene.hopper}) {
+      if (!vessel->motion || !moves(*vessel->motion)) continue;
+      if (const auto* table = std::get_if<TableMotion>(&*vessel->motion))
+        table_ends = std::max(table_ends, table->times.back()), acceleration_ += motion_bounds(*vessel).acceleration;
+      for (const Swing& swing : swings_of(*vessel)) swings_.push_back(swing), acceleration_ += swing.acceleration();
+    }
+    const double duration = scene.run.duration;
+    if (table_ends > 0)
+      windows_ = {{0, swings_.empty() ? std::min(duration, table_ends) : duration}};
+    else
+      set_windows(duration);
+  }
+
+  /// s, in which all ways are seen that the vessels stand to each other: the rest of the run repeats them.
+  const std::vector<Stretch>& windows() const { return windows_; }
+
+  /// s, until `end` at most, in which no wall of one comes nearer to one of the other than by `way` (m).
+  double time_for(double way, double time, double end) const {
+    double acceleration = acceleration_, until = end - time;
+    for (const Swing& swing : swings_) {
+      const auto within = [&](double from, double length) {
+        if (time < from) until = std::min(until, from - time);
+        if (time < from || time >= from + length) return;
+        until = std::min(until, from + length - time);
+        // d2/dt2 of s(t) sin(w t), where s' is at most 3 / (2 length) and s'' 6 / length^2.
+        acceleration += swing.reach * (6 * std::numbers::pi * swing.frequency / length + 6 / (length * length));
+      };
+      within(0, swing.ramp), within(swing.stop, swing.stop_ramp);
+    }
+    const double speed = tray_.speed(time) + hopper_.speed(time);
+    const double most = speed + std::sqrt(speed * speed + 2 * acceleration * way);
+    return most > 0 ? std::min(until, 2 * way / most) : until;
+  }
+
+ private:
+  /// A motion repeats itself after its ramps and a period that all parts of it have in common. One part that stops does
+  /// so within what was seen of it; of several each has its own amplitude then.
+  void set_windows(double duration) {
+    double common = 0, ramps = 0, first_stop = never, last_stop = 0;
+    for (const Swing& swing : swings_) {
+      common = common_frequency(common, swing.frequency);
+      ramps = std::max(ramps, swing.ramp);
+      first_stop = std::min(first_stop, swing.stop);
+      if (swing.stop < duration) last_stop = std::max(last_stop, swing.stop + swing.stop_ramp);
+    }
+    const double period = common > 0 ? 1 / common : 0;
+    windows_ = {{0, std::min(duration, ramps + period)}};
+    if (swings_.size() == 1 || first_stop >= duration) return;
+    if (first_stop <= windows_[0].to)
+      windows_[0].to = std::min(duration, std::max(windows_[0].to, last_stop + period));
+    else
+      windows_.push_back({first_stop, std::min(duration, last_stop + period)});
+  }
+
+  const OwnWalls &tray_, &hopper_;
+  std::vector<Stretch> windows_;
+  double acceleration_ = 0;  // m/s2, of both, without ramps
+  std::vector<Swing> swings_;
+};
+
+/// m, how far a hopper reaches over the seam of a periodic tray; negative: it stays so far away from it.
+double beyond_seam(const Scene& scene, const OwnWalls& tray, const OwnWalls& hopper, double time) {
+  const bool along = scene.tray.sides == Sides::periodic;
+  const bool across = scene.space != Space::two_dimensional && scene.tray.front_and_back == Sides::periodic &&
+                      scene.hopper->front_and_back != Sides::periodic;
+  double beyond = -std::numeric_limits<double>::infinity();
+  const Pose of_tray = tray.pose(time), of_hopper = hopper.pose(time);
+  for (int k = 0; (along || across) && k < 8; ++k) {
+    const Eigen::Vector3d at = tray.from_lab(of_tray, hopper.to_lab(of_hopper, hopper.box().corner(k)));
+    if (along) beyond = std::max({beyond, -at.x(), at.x() - scene.tray.length});
+    if (across) beyond = std::max({beyond, -at.z(), at.z() - *scene.tray.depth});
+  }
+  return beyond;
+}
+
+/// Looked at as often as it takes that no wall of one vessel goes a twentieth of a seed into the other unseen.
 void warn_of_vessels_that_meet(const Scene& scene, Warnings& warnings) {
   if (!scene.hopper) return;
-  double slack = std::numeric_limits<double>::infinity();  // what overlaps by a hundredth of a seed is meant to touch
-  for (const SeedLot& lot : scene.lots) slack = std::min(slack, 0.01 * mean_thickness(lot));
+  double seed = std::numeric_limits<double>::infinity();
+  for (const SeedLot& lot : scene.lots) seed = std::min(seed, mean_thickness(lot));
+  const double slack = 0.01 * seed;   // what overlaps by less is meant to touch
+  const double stride = 0.06 * seed;  // two looks lie within half of it of where a wall turns back
   const OwnWalls tray(scene.tray, scene.space), hopper(*scene.hopper, scene.space);
-  Passage of_tray(tray, hopper, slack), of_hopper(hopper, tray, slack);
-  const auto is_moved = [](const Vessel& vessel) { return vessel.motion && moves(*vessel.motion); };
-  const bool still = !is_moved(scene.tray) && !is_moved(*scene.hopper);
-  for (const double time : still ? std::vector<double>{0} : times_to_look_at(scene.run.duration)) {
-    std::optional<std::string> met = of_tray.at(time);
-    if (!met) met = of_hopper.at(time);
-    if (!met) continue;
-    warnings.push_back(fmt::format("hopper: passes through the tray, at {:.3g} s {} do", time, *met));
-    return;
+  const Meeting meeting(scene, tray, hopper);
+  const StillAxes still = still_axes(scene.tray, *scene.hopper);
+  bool is_over_seam = false;
+  for (const Stretch& window : meeting.windows()) {
+    Passage of_tray(tray, hopper, slack, still), of_hopper(hopper, tray, slack, still);
+    for (double time = window.from;;) {
+      std::optional<std::string> met = of_tray.at(time, stride);
+      if (!met) met = of_hopper.at(time, stride);
+      if (met) {
+        warnings.push_back(fmt::format("hopper: passes through the tray, at {:.3g} s {} do", time, *met));
+        return;
+      }
+      const double beyond = is_over_seam ? -1e300 : beyond_seam(scene, tray, hopper, time);
+      if (beyond > slack) {
+        is_over_seam = true;
+        warnings.push_back(fmt::format(
+            "hopper: reaches over an end of the periodic tray, from {:.3g} s on: seeds in it are carried to "
+            "the other end there, out of the hopper",
+            time));
+      }
+      if (time >= window.to) break;
+      const double apart = std::min({of_tray.gap(), of_hopper.gap(), std::max(0.0, -beyond)});
+      time = std::min(window.to, time + meeting.time_for(std::max(stride, apart), time, window.to));
+    }
   }
 }
 
