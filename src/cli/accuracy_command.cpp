@@ -126,7 +126,7 @@ PromiseChoices choices_of(const Scene& scene) {
   AccuracyGrid grid = default_accuracy_grid(scene);
   grid.integrators = {scene.numerics.integrator};
   return {.design = runnable(scene, screening_design(grid)),
-          .run_to_decision = scene.run.measure_from,
+          .lead = scene.run.measure_from,
           .window = scene.run.duration - scene.run.measure_from,
           .windows = windows_alike(scene)};
 }

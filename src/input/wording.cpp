@@ -25,8 +25,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-constexpr std::string_view plane = "plane";  // 2D, as files say it
-
 }  // namespace
 
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known) {
@@ -49,8 +47,7 @@ std::optional<std::string> nearest(std::string_view word, const std::vector<std:
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
-  const bool is_plane = (word == "2d" || word == "2D") && std::ranges::count(known, plane) > 0;
-  const std::optional<std::string> meant = is_plane ? std::string(plane) : nearest(word, known);
+  const std::optional<std::string> meant = nearest(word, known);
   return meant ? fmt::format("; did you mean \"{}\"?", *meant) : "";
 }
 

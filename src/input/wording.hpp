@@ -15,7 +15,7 @@ namespace vibrosow {
 /// that holds the word, or that the word holds ("freq" of "frequency").
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known);
 
-/// "; did you mean "width"?", or nothing. A word that is used for a known one is meant as it: "2d" as "plane".
+/// "; did you mean "width"?", or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
 /// A text of any length, cut to what a message can hold.

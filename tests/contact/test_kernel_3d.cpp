@@ -95,7 +95,7 @@ class Contact2 {
     PairResult3d result;
     result.forces = forces.data(), result.torques = torques.data(), result.first_own = 0;
     const Motion3d at{places.data(), places.data(), motions.data()};
-    kernels_.is_3d[set_].pair(grains_, at, list_, {0, 1}, parameters_, advance, histories_, result);
+    kernels_.vectors_3d[set_].pair(grains_, at, list_, {0, 1}, parameters_, advance, histories_, result);
     Loads loads;
     for (std::size_t k = 0; k < 2; ++k)
       loads[k] = {{forces[k].x, forces[k].y, forces[k].z}, {torques[k].x, torques[k].y, torques[k].z}};
@@ -283,7 +283,7 @@ class ManyContacts {
     result.forces = forces.data(), result.torques = torques.data(), result.first_own = 0;
     const Motion3d at{places_.data(), places_.data(), motions_.data()};
     for (int from = 0; from < pairs; from += entries_at_once_)
-      kernels_.is_3d[0].pair(grains_, at, list_, {from, std::min(from + entries_at_once_, pairs)}, parameters_, advance,
+      kernels_.vectors_3d[0].pair(grains_, at, list_, {from, std::min(from + entries_at_once_, pairs)}, parameters_, advance,
                              histories_, result);
   }
 

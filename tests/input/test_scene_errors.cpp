@@ -338,7 +338,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{3, "+poisson_ratio = 0.6", 4, "seeds.wheat.poisson_ratio", "from 0 to 0.5"},
         Case{5, "law = 'hertz'\nyoungs_modulus = '0 Pa'", 6, "contact.youngs_modulus", "from 1 Pa to 1e+13 Pa"},
         Case{5, "law = 'hertz'\nyoungs_modulus = 5e10", 6, "contact.youngs_modulus", "a pressure such as \"5e4 MPa\""},
-        Case{1, "space = '2d'\n[seeds.wheat]", 1, "space", "is not one of plane, 3d; did you mean \"plane\"?"},
+        Case{1, "space = '2D'\n[seeds.wheat]", 1, "space", "is not one of 2d, 3d; did you mean \"2d\"?"},
         Case{2, "diameter = '1,200 mm'", 2, "seeds.wheat.diameter", "\"1200 mm\" or \"1.200 mm\""},
         Case{5, "law = 'hertz'\nyoungs_modulus = '5 N'", 6, "contact.youngs_modulus", "wrong unit \"N\""},
         Case{5, "law = 'hertz'\nyoungs_modulus = '1 GPa'\npoisson_ratio = 0.51", 7, "contact.poisson_ratio",
