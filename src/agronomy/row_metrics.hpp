@@ -34,13 +34,13 @@ enum class NoSpacings { none, plane_slice, shared_hole, few_seeds };
 /// What a row of a drill gets in the measuring window. Rates are of the whole tray, in 2D the slice's times the
 /// depth factor; none without `tray.depth`, or when the run ended before the window.
 struct RowMetrics {
-  int row = 0;                         // 1..; 0: all rows
-  std::vector<int> holes;              // that feed it, 1..
-  std::int64_t seeds = 0;              // from these, of the plane slice or in 3D of the tray
-  std::optional<double> mass_rate;     // kg/s; of all rows together
-  std::optional<double> seeds_per_s;   // likewise
-  std::optional<double> kg_per_m2;     // of all rows: of the whole width
-  std::optional<double> seeds_per_m2;  // likewise
+  int row = 0;                                                    // 1..; 0: all rows
+  std::vector<int> holes;                                         // that feed it, 1..
+  std::int64_t seeds = 0;                                         // from these, of the plane slice or in 3D of the tray
+  std::optional<double> mass_rate;                                // kg/s; of all rows together
+  std::optional<double> seeds_per_s;                              // likewise
+  std::optional<double> kg_per_m2;                                // of all rows: of the whole width
+  std::optional<double> seeds_per_m2;                             // likewise
   std::optional<double> instability_cv, instability_counting_cv;  // fractions; over time, and by counting alone
   std::optional<double> longest_pause;                            // s, of the holes; of all rows: the longest of any
   std::optional<SpacingMetrics> spacing;                          // of all rows: each spacing beside its own reference

@@ -32,7 +32,7 @@ struct SubmitOptions {
   CommonOptions common;
   std::string time, partition;
   std::size_t shards = 0;  // 0: by predicted cost
-  int array_limit = 0;      // 0: none
+  int array_limit = 0;     // 0: none
   bool dry_run = false, rounds = false;
 };
 
@@ -214,8 +214,7 @@ int submit(const SubmitOptions& options) {
 
 void add_submit_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SubmitOptions>();
-  CLI::App* command =
-      app.add_subcommand("submit", "run a sweep on a Slurm cluster, in shards, then write its reports");
+  CLI::App* command = app.add_subcommand("submit", "run a sweep on a Slurm cluster, in shards, then write its reports");
   add_input_options(*command, options->common, "study file (.toml), or the folder of one that is begun");
   command->add_option("--out", options->common.out, "directory for the reports; default out/ and the file's name")
       ->type_name("DIR");

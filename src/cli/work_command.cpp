@@ -44,8 +44,8 @@ int work(const WorkOptions& options) {
   const auto [number, shards] = shard_numbers(options.shard);
   const PlannedStudy planned = study_of_plan(read_plan(options.folder, options.plan));
   StudyRuns runs(cases_of(options.folder));
-  const BatchResult made = make_runs(runs, wanted_runs(planned, shard_of(planned.plan, number, shards)),
-                                     options.batch, options.jobs, options.quiet);
+  const BatchResult made = make_runs(runs, wanted_runs(planned, shard_of(planned.plan, number, shards)), options.batch,
+                                     options.jobs, options.quiet);
   const BatchSummary& batch = made.batch;
   if (!options.quiet)
     print("shard {}/{}: {} runs made, {} were there, {} left\n", number, shards, batch.made, batch.there,

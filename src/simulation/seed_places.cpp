@@ -89,7 +89,7 @@ bool SeedPlaces::is_in_room(const Eigen::Vector3d& at, double half_width, std::s
   };
   const Pose& pose = walls.poses()[v];
   if (holds(pose, !turns_over(vessel) && stands(vessel, pose))) return true;
-  return turns_over(vessel) && drum_of(vessel) == nullptr && holds({}, true);
+  return turns_over(vessel) && !drum_of(vessel) && holds({}, true);
 }
 
 std::string SeedPlaces::unseen_ways(std::size_t v) const {

@@ -29,7 +29,7 @@ struct SimulationOptions {
                                                  // neighbours are sought; true ends the run as interrupted
   std::function<void(double fraction_done)> progress{};  // called now and then with 0..1, in the simulating thread
 
-  std::vector<Observer> observers{};                     // none of them changes the run
+  std::vector<Observer> observers{};             // none of them changes the run
   std::function<void(Simulation&)> on_record{};  // where snapshots were just taken
 
   std::optional<SimulationState> from{};                        // to go on from; none: the scene's start

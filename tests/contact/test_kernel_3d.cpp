@@ -283,8 +283,8 @@ class ManyContacts {
     result.forces = forces.data(), result.torques = torques.data(), result.first_own = 0;
     const Motion3d at{places_.data(), places_.data(), motions_.data()};
     for (int from = 0; from < pairs; from += entries_at_once_)
-      kernels_.vectors_3d[0].pair(grains_, at, list_, {from, std::min(from + entries_at_once_, pairs)}, parameters_, advance,
-                             histories_, result);
+      kernels_.vectors_3d[0].pair(grains_, at, list_, {from, std::min(from + entries_at_once_, pairs)}, parameters_,
+                                  advance, histories_, result);
   }
 
   std::vector<double> history(std::size_t k) const {

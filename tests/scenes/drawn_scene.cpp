@@ -459,7 +459,10 @@ class SceneWriter {
       pieces.push_back(fmt::format("{{ line = {}, about = {}, axis = \"{}\" }}", list(points), point(a, b), axis));
     };
     if (vessel.drum) {
-      pieces.push_back(fmt::format("{{ centre = {}, radius = {} }}", point(middle, middle), mm(middle)));
+      if (draw_.one_in(name + ".arcs", 3))
+        arc(middle, middle, middle, 0, 180), arc(middle, middle, middle, 180, 360);
+      else
+        pieces.push_back(fmt::format("{{ centre = {}, radius = {} }}", point(middle, middle), mm(middle)));
       if (draw_.one_in(name + ".lifter", 2)) line({point(middle, 0.02 * l), point(middle, 0.15 * l)});
     } else if (!vessel.box) {  // two slopes, a gap between them
       line({point(0, 0.9 * h), point(0, 0.5 * h), point(middle - 8, 1)});
@@ -541,7 +544,7 @@ class SceneWriter {
       set(name + ".rain.to", mm(0.7 * vessel.length));
     }
     if (draw_.one_in(name + ".rain.height", 2))
-      set(name + ".rain.height", mm(draw_.number(name + ".rain.how_high", 0.9, 0.2) * vessel.height));
+      set(name + ".rain.height", mm(draw_.number(name + ".rain.how_high", 1.3, 0.2) * vessel.height));
     if (draw_.one_in(name + ".rain.start", 4)) set(name + ".rain.start", ms(10));
     if (draw_.one_in(name + ".rain.stop", 4)) set(name + ".rain.stop", ms(40));
   }

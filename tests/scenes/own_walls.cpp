@@ -248,7 +248,11 @@ class WallMaker {
 const WallPiece* circle_of(const Vessel& vessel) {
   if (vessel.box || vessel.pieces.empty()) return nullptr;
   const WallPiece& first = vessel.pieces.front();
-  return first.radius > 0 && first.to - first.from > 2 * std::numbers::pi * (1 - 1e-9) ? &first : nullptr;
+  double closed = 0;  // rad, of arcs that lie side by side
+  for (const WallPiece& piece : vessel.pieces)
+    if (piece.radius > 0 && piece.radius == first.radius && piece.centre == first.centre)
+      closed += piece.to - piece.from;
+  return closed > 2 * std::numbers::pi * (1 - 1e-9) ? &first : nullptr;
 }
 
 void WallMaker::add_drum_ends() {
