@@ -193,7 +193,7 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
     Inside inside = grains_inside(v, walls, grains, touching);
     const int missing = vessel.fill->count - inside.grains;
     if (!stands(vessel, pose)) {
-      note_waiting(vessel, missing, time);
+      note_waiting(v, missing, time);
       continue;
     }
     int waiting = 0;

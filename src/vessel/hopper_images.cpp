@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,7 +17,11 @@
 namespace vibrosow {
 namespace {
 
-using Box = Eigen::AlignedBox3d;
+struct Box {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;  // m
+
+  void extend(const Eigen::Vector3d& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); }
+};
 
 struct Periods {
   double along = 0, across = 0;  // m; 0: the hopper has no images there
@@ -50,8 +54,9 @@ Box reach_over_tray(const Scene& scene) {
   const Box own = reach_of(*scene.hopper, scene.space);
   const Eigen::Vector3d tray(scene.tray.origin.x(), scene.tray.origin.y(), scene.tray.front);
   Box over;
-  for (int corner = 0; corner < 8; ++corner)
-    over.extend(point_in_lab(*scene.hopper, {}, own.corner(static_cast<Box::CornerType>(corner))) - tray);
+  for (const double x : {own.low.x(), own.high.x()})
+    for (const double y : {own.low.y(), own.high.y()})
+      for (const double z : {own.low.z(), own.high.z()}) over.extend(point_in_lab(*scene.hopper, {}, {x, y, z}) - tray);
   return over;
 }
 
@@ -112,7 +117,8 @@ std::optional<ImageFault> image_fault(const Scene& scene) {
   const double left = hopper.origin.x() - scene.tray.origin.x();
   if (along > 0 && !(left >= 0 && left + hopper.length <= along * rounding))
     return ImageFault{"left", "the hopper does not lie within the length of the periodic tray"};
-  const Eigen::Vector3d size = reach_of(hopper, scene.space).sizes();
+  const Box own = reach_of(hopper, scene.space);
+  const Eigen::Vector3d size = own.high - own.low;
   const Box over = reach_over_tray(scene);
   for (const bool is_along : {true, false}) {
     const double period = is_along ? along : across;
@@ -124,7 +130,7 @@ std::optional<ImageFault> image_fault(const Scene& scene) {
                         fmt::format("the hopper, as it leans and turns and with its pieces, takes {:.4g} mm {} a "
                                     "periodic tray of {:.4g} mm: it would pass through the hopper of the next period",
                                     1e3 * taken, is_along ? "along" : "across", 1e3 * period)};
-    if (!have_walls(scene, over.min()[axis], over.max()[axis], period))
+    if (!have_walls(scene, over.low[axis], over.high[axis], period))
       return ImageFault{"motion",
                         fmt::format("tray and hopper move by up to {:.4g} mm against each other, too far for a period "
                                     "of {:.4g} mm",
@@ -143,7 +149,7 @@ double carried_beyond(const Scene& scene) {
   const double beyond = touched_beyond(scene, farther);
   const Box over = reach_over_tray(scene);
   const auto is_near = [&](int axis, double period) {
-    return period > 0 && (over.min()[axis] < beyond || over.max()[axis] > period - beyond);
+    return period > 0 && (over.low[axis] < beyond || over.high[axis] > period - beyond);
   };
   return is_near(0, periods.along) || is_near(2, periods.across) ? farther : diameter;
 }

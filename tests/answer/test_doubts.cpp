@@ -346,7 +346,7 @@ TEST(DoubtTable, HasEveryKindOfARun) {
   std::vector<DoubtKind> of_a_run;
   for (int kind = 0; kind <= static_cast<int>(DoubtKind::few_seeds); ++kind)
     of_a_run.push_back(static_cast<DoubtKind>(kind));
-  of_a_run.insert(of_a_run.end(), {DoubtKind::seeds_spilled, DoubtKind::flow_changed});
+  of_a_run.insert(of_a_run.end(), {DoubtKind::seeds_spilled, DoubtKind::flow_changed, DoubtKind::sizes_drawn});
   std::vector<DoubtKind> of_the_table;
   for (const KindAndAnswers& row : table) of_the_table.push_back(row.kind);
   EXPECT_EQ(of_the_table, of_a_run);

@@ -59,7 +59,7 @@ void read_segment(const fs::path& folder, const std::string& bytes) {
   write_file_atomically(folder / "a.segment", bytes);
   Segments segments(folder);
   segments.refresh();
-  for (const std::string& name : segments.names()) segments.bytes_of(name);
+  for (const std::string& name : segments.names()) segments.find(name, [](const std::string&) { return false; });
 }
 
 }  // namespace

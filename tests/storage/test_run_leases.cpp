@@ -7,6 +7,7 @@
 #include <fstream>
 #include <thread>
 
+#include "files/atomic_file.hpp"
 #include "storage/checkpoint_folder.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -65,11 +66,9 @@ TEST(RunLeases, OfASilentOneOfAnotherMachineAfterItsPatience) {
   EXPECT_TRUE(notes.claim("a"));
 }
 
-TEST(RunLeases, AFolderThatCannotBeWrittenHindersNothing) {
-  RunLeases notes("/proc/nowhere");
-  EXPECT_TRUE(notes.claim("a"));
-  notes.heartbeat("a", 0.5);
-  notes.release("a");
+TEST(RunLeases, NothingIsClaimedInAFolderThatCannotBeMade) {
+  RunLeases leases("/proc/nowhere");
+  EXPECT_THROW(leases.claim("a"), CannotWrite);
 }
 
 TEST(CheckpointFolder, TheLatestFirstAndEarlierOnesGo) {
