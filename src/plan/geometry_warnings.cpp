@@ -588,21 +588,6 @@ class Meeting {
   std::vector<Swing> swings_;
 };
 
-/// m, how far a hopper reaches over the seam of a periodic tray; negative: it stays so far away from it.
-double beyond_seam(const Scene& scene, const OwnWalls& tray, const OwnWalls& hopper, double time) {
-  const bool along = scene.tray.sides == Sides::periodic;
-  const bool across = scene.space != Space::two_dimensional && scene.tray.front_and_back == Sides::periodic &&
-                      scene.hopper->front_and_back != Sides::periodic;
-  double beyond = -std::numeric_limits<double>::infinity();
-  const Pose of_tray = tray.pose(time), of_hopper = hopper.pose(time);
-  for (int k = 0; (along || across) && k < 8; ++k) {
-    const Eigen::Vector3d at = tray.from_lab(of_tray, hopper.to_lab(of_hopper, hopper.box().corner(k)));
-    if (along) beyond = std::max({beyond, -at.x(), at.x() - scene.tray.length});
-    if (across) beyond = std::max({beyond, -at.z(), at.z() - *scene.tray.depth});
-  }
-  return beyond;
-}
-
 /// Looked at as often as it takes that no wall of one vessel goes a twentieth of a seed into the other unseen.
 void warn_of_vessels_that_meet(const Scene& scene, Warnings& warnings) {
   if (!scene.hopper) return;
@@ -613,7 +598,6 @@ void warn_of_vessels_that_meet(const Scene& scene, Warnings& warnings) {
   const OwnWalls tray(scene.tray, scene.space), hopper(*scene.hopper, scene.space);
   const Meeting meeting(scene, tray, hopper);
   const StillAxes still = still_axes(scene.tray, *scene.hopper);
-  bool is_over_seam = false;
   for (const Stretch& window : meeting.windows()) {
     Passage of_tray(tray, hopper, slack, still), of_hopper(hopper, tray, slack, still);
     for (double time = window.from;;) {
@@ -623,16 +607,8 @@ void warn_of_vessels_that_meet(const Scene& scene, Warnings& warnings) {
         warnings.push_back(fmt::format("hopper: passes through the tray, at {:.3g} s {} do", time, *met));
         return;
       }
-      const double beyond = is_over_seam ? -1e300 : beyond_seam(scene, tray, hopper, time);
-      if (beyond > slack) {
-        is_over_seam = true;
-        warnings.push_back(fmt::format(
-            "hopper: reaches over an end of the periodic tray, from {:.3g} s on: seeds in it are carried to "
-            "the other end there, out of the hopper",
-            time));
-      }
       if (time >= window.to) break;
-      const double apart = std::min({of_tray.gap(), of_hopper.gap(), std::max(0.0, -beyond)});
+      const double apart = std::min(of_tray.gap(), of_hopper.gap());
       time = std::min(window.to, time + meeting.time_for(std::max(stride, apart), time, window.to));
     }
   }
