@@ -477,6 +477,7 @@ TEST(SceneErrors, ListsAndMapsHaveAnEnd) {
       {2, 101, "shape = 'discs'\ndiscs = ", "{ x = '0 mm', y = '0 mm', diameter = '4 mm' }", "", "seeds.wheat.discs"},
       {8, 20001, "pieces = ", "{ line = [['1 cm', '2 cm'], ['3 cm', '2 cm']] }", "", "tray.pieces"},
       {11, 10001, "at = ", "'1 cm'", "", "tray.holes.at"},
+      {25, 100001, "[record]\ntimes = ", "'1 s'", "", "record.times"},
   };
   const TemporaryFolder folder;
   for (const Long& one : cases) {
@@ -490,6 +491,15 @@ TEST(SceneErrors, ListsAndMapsHaveAnEnd) {
     EXPECT_THAT([&] { read_scene(file); },
                 ThrowsMessage<InputError>(AllOf(HasSubstr(one.key + ": "), HasSubstr(", more than "))));
   }
+}
+
+TEST(SceneErrors, LotsHaveAnEnd) {
+  std::vector<std::string> lines(base.begin() + 3, base.end());
+  for (int lot = 0; lot <= 100; ++lot)
+    lines.push_back("[seeds.s" + std::to_string(lot) + "]\ndiameter = '4 mm'\nmass = '30 mg'\nnumber_fraction = '1 %'");
+  const TemporaryFolder folder;
+  const auto file = folder.write("seeder.toml", joined(lines));
+  EXPECT_THAT([&] { read_scene(file); }, ThrowsMessage<InputError>(HasSubstr("seeds: lists 101, more than 100")));
 }
 
 }  // namespace
