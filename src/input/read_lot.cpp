@@ -10,6 +10,7 @@
 #include "input/presets.hpp"
 #include "portable_math/functions.hpp"
 #include "scene/clump_shape.hpp"
+#include "scene/list_limits.hpp"
 #include "scene/make_clump.hpp"
 #include "scene/seed_lot.hpp"
 #include "scene/si_units.hpp"
@@ -115,10 +116,9 @@ void refuse_hidden_balls(const Table& seeds, const std::vector<ClumpDisc>& balls
 }
 
 std::vector<ClumpDisc> read_discs(Table& seeds, Space space) {
-  constexpr std::size_t most = 100;  // each is a grain to the search for contacts
   std::vector<ClumpDisc> discs;
   std::vector<Table> tables = seeds.tables("discs");
-  seeds.refuse_more("discs", tables.size(), most);
+  seeds.refuse_more("discs", tables.size(), list_limits::clump_balls);
   for (Table& disc : tables) {
     const double x = disc.required_quantity("x", Dimension::length, -largest, largest);
     const double y = disc.required_quantity("y", Dimension::length, -largest, largest);
@@ -164,9 +164,8 @@ void count_what_was_weighed(SizeDistribution& sizes, int power) {
 }
 
 void read_table_of_sizes(Table& table, const std::string& list_key, int power, SizeDistribution& sizes) {
-  constexpr std::size_t most = 1000;
   sizes.diameter = table.quantities(list_key, Dimension::length, smallest, largest);
-  table.refuse_more(list_key, sizes.diameter.size(), most);
+  table.refuse_more(list_key, sizes.diameter.size(), list_limits::sizes);
   const auto by_number = table.quantities("fractions", Dimension::fraction, 1e-9, 1);
   const auto by_mass = table.quantities("mass_fractions", Dimension::fraction, 1e-9, 1);
   if (!by_number.empty() && !by_mass.empty()) table.fail("mass_fractions", "contradicts fractions; give one of them");

@@ -10,6 +10,7 @@
 #include "input/wording.hpp"
 #include "portable_math/functions.hpp"
 #include "scene/input_error.hpp"
+#include "scene/list_limits.hpp"
 #include "scene/si_units.hpp"
 
 namespace vibrosow {
@@ -75,10 +76,9 @@ HarmonicMotion read_harmonic(Table& table) {
 
 SumMotion read_sum(Table& table) {
   SumMotion sum;
-  constexpr std::size_t most = 100;
   double longest_period = 0;
   std::vector<Table> components = table.tables("components");
-  table.refuse_more("components", components.size(), most);
+  table.refuse_more("components", components.size(), list_limits::components);
   for (Table& component : components) {
     sum.components.push_back(read_oscillation(component));
     longest_period = std::max(longest_period, 1 / sum.components.back().frequency);

@@ -14,6 +14,7 @@
 #include "input/table.hpp"
 #include "scene/accuracy_level.hpp"
 #include "scene/integrator_names.hpp"
+#include "scene/list_limits.hpp"
 #include "scene/mixture.hpp"
 #include "scene/printable.hpp"
 #include "scene/seed_lot.hpp"
@@ -59,8 +60,6 @@ void check_lot_name(const Table& seeds, const std::string& name) {
   }
 }
 
-constexpr std::size_t most_lots = 100;  // each has a surface with each
-
 std::vector<SeedLot> read_lots(Table seeds, Space space) {
   std::vector<SeedLot> lots;
   for (const std::string& name : seeds.keys()) {
@@ -68,7 +67,7 @@ std::vector<SeedLot> read_lots(Table seeds, Space space) {
     Table table = seeds.required_table(name);
     lots.push_back(read_lot(table, name, space));
   }
-  seeds.refuse_more("", lots.size(), most_lots);
+  seeds.refuse_more("", lots.size(), list_limits::lots);
   if (lots.empty()) seeds.fail("", "names no seed lot; expected a table such as [seeds.wheat]");
   read_fractions(seeds, lots);
   return lots;
@@ -162,11 +161,9 @@ void check_counting_line(Table& root, const Scene& scene) {
                                    millimetres(hole.thickness), millimetres(scene.run.count_below)));
 }
 
-constexpr int most_snapshots = 100'000;
-
 /// 0, every, 2 every, .. up to the end of the run, which a rounding error must not pass.
 std::vector<double> repeated_times(Table& table, double every, double duration) {
-  constexpr double most = most_snapshots, rounding = 1e-9;
+  constexpr double most = list_limits::snapshots, rounding = 1e-9;
   const double count = std::floor(duration / every * (1 + rounding)) + 1;
   if (count > most) table.fail("every", fmt::format("asks for {:.0f} snapshots, more than {:.0f}", count, most));
   std::vector<double> times;
@@ -177,7 +174,7 @@ std::vector<double> repeated_times(Table& table, double every, double duration) 
 std::vector<double> read_times(Table& table, double duration) {
   std::vector<double> times = table.quantities("times", Dimension::time, 0, duration);
   const std::optional<double> every = table.quantity("every", Dimension::time, 1e-9, duration);
-  table.refuse_more("times", times.size(), most_snapshots);
+  table.refuse_more("times", times.size(), list_limits::snapshots);
   if (!times.empty() && every) table.fail("every", "contradicts times; give one of them");
   if (every) return repeated_times(table, *every, duration);
   if (times.empty()) table.fail("times", "is missing; give times such as [\"2 s\", \"6 s\"], or every");

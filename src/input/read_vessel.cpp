@@ -13,6 +13,7 @@
 #include "input/read_motion.hpp"
 #include "input/wording.hpp"
 #include "scene/clump_shape.hpp"
+#include "scene/list_limits.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "scene/si_units.hpp"
@@ -26,7 +27,6 @@ constexpr double thickness_rounding = 1e-9;  // of a seed's thickness, forgiven
 
 constexpr int most_of_a_fill = 100'000'000;  // seeds
 
-constexpr std::size_t most_of_all_pieces = 20'000;  // a drawing has fewer
 
 /// By which a fill says how much it is.
 const char* key_of_fill(const Table& fill_table) {
@@ -217,7 +217,7 @@ void read_pieces(Table& vessel_table, Space space, Vessel& vessel, std::vector<D
     else
       read_drawn_here(table, space, pieces);
     for (std::size_t k = first; k < pieces.size(); ++k) pieces[k].drawn_out = drawn_out;
-    vessel_table.refuse_more("pieces", pieces.size(), most_of_all_pieces);
+    vessel_table.refuse_more("pieces", pieces.size(), list_limits::pieces);
   }
 }
 

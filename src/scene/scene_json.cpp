@@ -15,6 +15,7 @@
 #include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
+#include "scene/list_limits.hpp"
 #include "scene/printable.hpp"
 
 namespace vibrosow {
@@ -250,6 +251,11 @@ constexpr double smallest_length = 1e-9, farthest = 1e4, latest = 1e6;  // m, m,
 constexpr double most_turns = 1e6;                                      // rad, rad/s, Hz
 constexpr double least_compression = 1e-15;
 
+template <class Io, class List>
+void no_more_than(Io& io, const List& list, std::size_t most, const char* key) {
+  range(io, list.size() <= most, key, "lists too many");
+}
+
 template <class Io>
 void fields(Io& io, SizeDistribution& sizes) {
   using Kind = SizeDistribution::Kind;
@@ -260,6 +266,7 @@ void fields(Io& io, SizeDistribution& sizes) {
   io.used("fractions", sizes.fraction, usual.fraction, table);
   check(io, sizes.fraction.size() == sizes.diameter.size(), "fractions", "has not as many numbers as diameters_m");
   check(io, !table || !sizes.diameter.empty(), "diameters_m", "is empty");
+  no_more_than(io, sizes.diameter, list_limits::sizes, "diameters_m");
   io.used("mean_m", sizes.mean, usual.mean, normal);
   io.used("deviation_m", sizes.deviation, usual.deviation, normal);
   io.used("least_m", sizes.least, usual.least, normal || sizes.kind == Kind::uniform);
@@ -296,6 +303,7 @@ void fields(Io& io, SeedLot& lot) {
   const bool clump = lot.shape == Shape::clump;
   io.used("discs", lot.discs, usual.discs, clump);
   check(io, !clump || !lot.discs.empty(), "discs", "is empty");
+  no_more_than(io, lot.discs, list_limits::clump_balls, "discs");
   io.used("gyration2_m2", lot.gyration2, usual.gyration2, clump);
   io.used("gyration2_x_m2", lot.gyration2_x, usual.gyration2_x, false);
   io.used("gyration2_y_m2", lot.gyration2_y, usual.gyration2_y, false);
@@ -469,6 +477,7 @@ void fields(Io& io, HarmonicMotion& motion) {
 template <class Io>
 void fields(Io& io, SumMotion& motion) {
   io.value("components", motion.components);
+  no_more_than(io, motion.components, list_limits::components, "components");
 }
 
 template <class Io>
@@ -540,6 +549,7 @@ void fields(Io& io, Vessel& vessel) {
   io.nullable("depth_m", vessel.depth);
   io.value("holes", vessel.holes);
   io.value("pieces", vessel.pieces);
+  no_more_than(io, vessel.pieces, list_limits::pieces, "pieces");
   io.value("box", vessel.box);
   io.choice("sides", vessel.sides, {"walls", "open", "periodic"});
   io.used_choice("front_and_back", vessel.front_and_back, {"walls", "open", "periodic"}, Sides::walls);
@@ -596,6 +606,7 @@ void fields(Io& io, RunPlan& run) {
 template <class Io>
 void fields(Io& io, Record& record) {
   io.value("times_s", record.times);
+  no_more_than(io, record.times, list_limits::snapshots, "times_s");
   io.value("cell_m", record.cell);
   io.used_choice("view", record.view, {"projection", "slice"}, MapView::projection);
   for (const double time : record.times) range(io, time, 0, latest, "times_s");
@@ -617,6 +628,7 @@ void fields(Io& io, Scene& scene) {
   io.used_choice("space", scene.space, {"2d", "3d"}, Space::two_dimensional);
   io.value("lots", scene.lots);
   check(io, !scene.lots.empty(), "lots", "is empty");
+  no_more_than(io, scene.lots, list_limits::lots, "lots");
   io.value("contact", scene.contact);
   check(io, lots_exist(scene), "contact.pairs", "names a lot that does not exist");
   io.value("tray", scene.tray);

@@ -9,6 +9,8 @@
 
 #include "portable_math/functions.hpp"
 #include "scene/motion.hpp"
+#include "scene/seed_lot.hpp"
+#include "vessel/bounding_box.hpp"
 #include "vessel/vessel_faces.hpp"
 #include "vessel/vessel_motion.hpp"
 #include "vessel/vessel_walls.hpp"
@@ -16,12 +18,6 @@
 
 namespace vibrosow {
 namespace {
-
-struct Box {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;  // m
-
-  void extend(const Eigen::Vector3d& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); }
-};
 
 struct Periods {
   double along = 0, across = 0;  // m; 0: the hopper has no images there
@@ -36,27 +32,25 @@ Periods periods_of(const Scene& scene) {
 }
 
 /// All walls, in the vessel's own frame, m.
-Box reach_of(const Vessel& vessel, Space space) {
-  Box box;
+BoundingBox reach_of(const Vessel& vessel, Space space) {
+  BoundingBox box;
   if (space == Space::two_dimensional) {
     for (const WallSegment& wall : vessel_walls(vessel))
-      for (const Eigen::Vector2d& point : wall_points(wall)) box.extend(Eigen::Vector3d(point.x(), point.y(), 0));
+      for (const Eigen::Vector2d& point : wall_points(wall)) box.include(Eigen::Vector3d(point.x(), point.y(), 0));
     return box;
   }
   for (const Face& face : vessel_faces(vessel))
     for (const auto& line : face_lines(face))
-      for (const Eigen::Vector3d& point : line) box.extend(point);
+      for (const Eigen::Vector3d& point : line) box.include(point);
   return box;
 }
 
 /// At rest, where the tray's own frame begins.
-Box reach_over_tray(const Scene& scene) {
-  const Box own = reach_of(*scene.hopper, scene.space);
+BoundingBox reach_over_tray(const Scene& scene) {
+  const BoundingBox own = reach_of(*scene.hopper, scene.space);
   const Eigen::Vector3d tray(scene.tray.origin.x(), scene.tray.origin.y(), scene.tray.front);
-  Box over;
-  for (const double x : {own.low.x(), own.high.x()})
-    for (const double y : {own.low.y(), own.high.y()})
-      for (const double z : {own.low.z(), own.high.z()}) over.extend(point_in_lab(*scene.hopper, {}, {x, y, z}) - tray);
+  BoundingBox over;
+  for (int k = 0; k < 8; ++k) over.include(point_in_lab(*scene.hopper, {}, own.corner(k)) - tray);
   return over;
 }
 
@@ -83,7 +77,7 @@ double moved_apart(const Scene& scene) {
 
 /// How far beyond a side of the tray a grain may touch a wall, where it is carried over beyond `side`, m.
 double touched_beyond(const Scene& scene, double side) {
-  return side + moved_apart(scene) + largest_lot(scene);
+  return side + moved_apart(scene) + largest_diameter(scene.lots);
 }
 
 /// Whether all that a grain can come to lies within the period to either side, of hoppers from `from` to `to` (m) over
@@ -117,9 +111,9 @@ std::optional<ImageFault> image_fault(const Scene& scene) {
   const double left = hopper.origin.x() - scene.tray.origin.x();
   if (along > 0 && !(left >= 0 && left + hopper.length <= along * rounding))
     return ImageFault{"left", "the hopper does not lie within the length of the periodic tray"};
-  const Box own = reach_of(hopper, scene.space);
+  const BoundingBox own = reach_of(hopper, scene.space);
   const Eigen::Vector3d size = own.high - own.low;
-  const Box over = reach_over_tray(scene);
+  const BoundingBox over = reach_over_tray(scene);
   for (const bool is_along : {true, false}) {
     const double period = is_along ? along : across;
     if (period == 0) continue;
@@ -147,7 +141,7 @@ double carried_beyond(const Scene& scene) {
   for (const double period : {periods.along, periods.across})
     if (period > 0) farther = std::min(farther, diameter + 0.25 * period);
   const double beyond = touched_beyond(scene, farther);
-  const Box over = reach_over_tray(scene);
+  const BoundingBox over = reach_over_tray(scene);
   const auto is_near = [&](int axis, double period) {
     return period > 0 && (over.low[axis] < beyond || over.high[axis] > period - beyond);
   };

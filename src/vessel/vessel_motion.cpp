@@ -47,7 +47,7 @@ Ramp swing(const Motion& m, double phase, double time) {
   return {ramp.size * sine, ramp.rate * sine + ramp.size * two_pi * m.frequency * cosine};
 }
 
-/// What part of a motion lies in 2D, and across it.
+/// What part of a motion lies in the plane of length and height, and across it.
 struct Parts {
   double in_plane = 1, across = 0;
 };

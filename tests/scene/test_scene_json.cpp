@@ -3,6 +3,7 @@
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "scene/input_error.hpp"
+#include "scene/list_limits.hpp"
 #include "study/study.hpp"
 
 #include <gmock/gmock.h>
@@ -609,6 +610,37 @@ TEST(SceneJson, WhatIsWrongIsSaidWithItsPath) {
       EXPECT_THAT(error.what(), testing::StartsWith(edit.message));
     }
   }
+}
+
+TEST(SceneJson, ListsHaveAnEnd) {
+  const auto said = [](const std::function<void(Scene&)>& change) {
+    Scene scene = example();
+    change(scene);
+    try {
+      scene_from_json(scene_to_json(scene));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto lots = [](std::size_t count) {
+    return [count](Scene& scene) { scene.lots.resize(count, scene.lots[0]); };
+  };
+  EXPECT_EQ(said(lots(list_limits::lots)), "");
+  EXPECT_EQ(said(lots(list_limits::lots + 1)), "scene.lots: lists too many");
+  const std::vector<double> sizes(list_limits::sizes + 1, 0.006);
+  EXPECT_EQ(said([&](Scene& scene) { scene.lots[0].sizes = {Kind::table, 0, 0, 0, 0, sizes, sizes}; }),
+            "scene.lots[0].sizes.diameters_m: lists too many");
+  EXPECT_EQ(said([](Scene& scene) {
+              scene.tray.motion = SumMotion{std::vector<HarmonicMotion>(list_limits::components + 1)};
+            }),
+            "scene.tray.motion.components: lists too many");
+  EXPECT_EQ(said([](Scene& scene) { scene.tray.pieces.resize(list_limits::pieces + 1); }),
+            "scene.tray.pieces: lists too many");
+  EXPECT_EQ(said([](Scene& scene) {
+              scene.record.emplace().times.assign(list_limits::snapshots + 1, 0.0);
+            }),
+            "scene.record.times_s: lists too many");
 }
 
 }  // namespace

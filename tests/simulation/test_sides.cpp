@@ -156,6 +156,16 @@ TEST(PeriodicSides, AHopperThatDoesNotClearItsImagesIsRefused) {
               scene.tray.motion = HarmonicMotion{0, 0.07, 3, 0};
             }),
             "hopper.motion: tray and hopper move by up to 70 mm against each other, too far for a period of 100 mm");
+  const auto move = [](Scene& scene) { scene.tray.motion = HarmonicMotion{0, 0.05, 3, 0}; };
+  EXPECT_EQ(refused(move), "");
+  EXPECT_EQ(refused([move](Scene& scene) {
+              move(scene);
+              SizeDistribution& sizes = scene.lots[0].sizes;
+              sizes.kind = SizeDistribution::Kind::table;
+              sizes.diameter = {5.7e-3, 24e-3}, sizes.fraction = {0.99, 0.01};
+            }).substr(0, 14),
+            "hopper.motion:")
+      << "the largest seeds touch walls further on";
 }
 
 TEST(PeriodicSides, AHoleCountsModuloTheLength) {
