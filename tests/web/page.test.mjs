@@ -92,7 +92,7 @@ for (const space of ['plane', 'three_dimensional']) {
       await page.locator('#replay-forces', { hasText: /^Forces and seeds now: \d+ contacts, .* mN in the mean, .* mN at most/ }).waitFor();
       await page.getByRole('radio', { name: 'Force' }).check();
       await page.locator('#replay-legend', { hasText: 'sum of a seed’s normal forces' }).waitFor();
-      const coloured = await in_.nextPicture(page, chained);
+      await in_.nextPicture(page, chained);
       await in_.scrubTo(page, 21);
       const later = await in_.pictureOf(page);
       const frames = Number(await page.getAttribute('#replay-frame', 'max'));

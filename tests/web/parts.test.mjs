@@ -11,7 +11,7 @@ import { mapOfTray } from '../../web/report/tray_map.mjs';
 import { mapSentence, packingSentence, velocitySentence } from '../../web/report/map_sentences.mjs';
 import { outflowSentence } from '../../web/report/outflow_sentence.mjs';
 import { readPageData } from '../../web/report/page_data.mjs';
-import { frameAt } from '../../web/report/player.mjs';
+import { frameAt, Player } from '../../web/report/player.mjs';
 
 // The same cases as the terminal's (tests/report/test_number_text.cpp).
 const cases = JSON.parse(readFileSync(new URL('../report/numbers.json', import.meta.url)));
@@ -151,4 +151,22 @@ test('one light gathers all doubts, the serious ones first', () => {
   assert.deepEqual(lightOf(notes(['That is no guarantee.', 'that is no guarantee'])), { level: 'mild', words: 'No serious doubt, but 1 note', all: notes(['That is no guarantee.']) });
   const both = lightOf([...notes(['few seeds']), { serious: true, text: 'ran dry' }, ...notes(['layout 4 failed'])]);
   assert.deepEqual([both.level, both.words, both.all[0].text], ['serious', 'Doubtful: 1 serious doubt and 2 notes', 'ran dry']);
+});
+
+test('a replay stands still while its tab is hidden, and goes on from there', () => {
+  const due = [];
+  globalThis.requestAnimationFrame = (tick) => due.push(tick);
+  const player = new Player([0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
+  player.smooth = true;
+  player.play();
+  const frame = (now) => due.shift()(now);
+  frame(1000);
+  frame(1500);
+  frame(2000);
+  assert.equal(player.moment, 1);
+  frame(60000);  // no frames are drawn in a hidden tab
+  assert.equal(player.moment, 1);
+  frame(60500);
+  assert.equal(player.moment, 1.5);
+  delete globalThis.requestAnimationFrame;
 });

@@ -165,7 +165,6 @@ function packedColour(colour) {
 }
 
 const poseOf = ({ x, y, z, angle }) => [x * 1000, y * 1000, z * 1000, angle];
-const noPose = [0, 0, 0, 0];
 
 export class GlPainter {
   /** `parts`: of each vessel { walls, rims } (wallsOf; pairs of places). null where there is no WebGL2. */

@@ -11,6 +11,8 @@ export function frameAt(times, time) {
   return low;
 }
 
+const longestPause = 1000;  // ms from frame to frame: beyond it nobody looked, as in a hidden tab, and the run goes on from where it was
+
 export class Player {
   constructor(times) {
     this.times = times;
@@ -86,6 +88,8 @@ export class Player {
   // `begin`: when this stretch of playing began, on the wall and in the run.
   tick(now) {
     if (!this.playing) return;
+    if (now - this.ticked > longestPause) this.begin = null;
+    this.ticked = now;
     this.begin = this.begin ?? { wall: now, run: this.moment };
     const time = this.begin.run + ((now - this.begin.wall) / 1000) * this.speed;
     const index = frameAt(this.times, time);

@@ -106,10 +106,10 @@ export class SpaceView {
   // In every view, below the hole on the screen.
   drawCounts(context, { counts, ink }) {
     const { camera } = this;
-    const labels = this.holes.map(({ number, rim }) => {
+    const labels = this.holes.map(({ number: hole, rim }) => {
       const places = rim.map((at) => camera.project(...placed(this.rest, at)));
       const middle = places.reduce((sum, [x]) => sum + x / places.length, 0);
-      return { x: middle, y: Math.max(...places.map(([, y]) => y)), text: String(counts.get(number) ?? 0) };
+      return { x: middle, y: Math.max(...places.map(([, y]) => y)), text: String(counts.get(hole) ?? 0) };
     });
     drawHoleLabels(context, labels, { ink: ink.ink, halo: ink.halo }, ink.font);
   }

@@ -71,10 +71,8 @@ export function wallsOf(vessel, faces = facesOfLines(vessel)) {
     walls.points.push(...made.points);
     walls.normals.push(...made.normals);
     walls.corners.push(...made.corners.map((corner) => first + corner));
-    for (const _ of made.points) {
-      walls.opens.push(opens);
-      walls.level.push(made.level);
-    }
+    walls.opens.push(...made.points.map(() => opens));
+    walls.level.push(...made.points.map(() => made.level));
     walls.edges.push(...made.edges.map(([from, to]) => ({ from, to, opens })));
   }
   return walls;

@@ -31,11 +31,11 @@ export function lookedUp(root, source) {
 function anchorsOf() {
   const times = new Map();
   return (text) => {
-    const plain = text.toLowerCase().replace(/[^\p{L}\p{M}\p{N}\s_-]/gu, '').trim().replace(/\s/g, '-');
-    let anchor = plain;
+    const named = text.toLowerCase().replace(/[^\p{L}\p{M}\p{N}\s_-]/gu, '').trim().replace(/\s/g, '-');
+    let anchor = named;
     while (times.has(anchor)) {
-      times.set(plain, times.get(plain) + 1);
-      anchor = `${plain}-${times.get(plain)}`;
+      times.set(named, times.get(named) + 1);
+      anchor = `${named}-${times.get(named)}`;
     }
     times.set(anchor, 0);
     return anchor;

@@ -1,6 +1,6 @@
 // Finds sections of the site's documents by words: the script that a page loads once its search is used, with the text of every document.
 
-const most = 20;  // results
+const mostFound = 20;  // results
 const around = 70;  // characters of context before a word and after it
 const fillers = new Set('a an and are be by can do does for from how i in is it many much my of on or the to what when where which why with'.split(' '));
 const wordsIn = (text) => [...text.matchAll(/[\p{L}\p{N}]+/gu)].map(({ 0: word, index }) => ({ word: word.toLowerCase(), index }));
@@ -88,6 +88,6 @@ export function indexOf(pages) {
     }
     const words = new Set(meant.flat().map(([word]) => word));
     return scores.map(({ score, known }, section) => ({ ...sections[section], score: score * known ** 2 * sections[section].weight })).filter(({ score }) => score > 0)
-      .sort((a, b) => b.score - a.score).slice(0, most).map((section) => ({ ...section, context: contextOf(section.text, words) }));
+      .sort((a, b) => b.score - a.score).slice(0, mostFound).map((section) => ({ ...section, context: contextOf(section.text, words) }));
   };
 }

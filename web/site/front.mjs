@@ -1,6 +1,4 @@
 // The front page: what the README says, and after its first paragraph where to start, with the studio and a report to open.
-import { readFileSync } from 'node:fs';
-import path from 'node:path';
 import { contentOf, escapeHtml } from './documents.mjs';
 import { made } from './menu.mjs';
 

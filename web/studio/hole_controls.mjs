@@ -2,7 +2,7 @@
 import { element } from '../report/dom.mjs';
 import { roundButton } from '../report/round_button.mjs';
 import { numberField, rangeField } from './fields.mjs';
-import { addHole, commonWidth, hasFloor, mostInARow, moveHole, rangesOf, reachOf, removeHole, spreadHoles, widenAll, widenHole } from './layout.mjs';
+import { addHole, commonWidth, hasFloor, mostInARow, moveHole, rangesOf, reachOf, spreadHoles, widenAll, widenHole } from './layout.mjs';
 import { mmOf } from './quantities.mjs';
 
 export class HoleControls {
