@@ -85,7 +85,7 @@ void print_step(const StepPlan& plan, const PredictedCost& cost) {
   for (const StepLimit& limit : plan.limits)
     print_text(wrapped_beside(fmt::format("  at most {:.4g} s: ", limit.dt), limit.reason));
   print_text(wrapped(fmt::format("longest safe step {:.4g} s ({})", plan.longest_safe, plan.bound_by), 2));
-  print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of CPU time\n", plan.steps, cost.grain_steps,
+  print("  {} steps, about {} grain-steps: some {:.2g} s of CPU time\n", plan.steps, count_text(cost.grain_steps),
         cost.seconds());
 }
 

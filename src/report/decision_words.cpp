@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "report/layout_text.hpp"
+#include "report/number_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -85,13 +86,13 @@ std::string no_best_sentence(const DecisionResult& result) {
 }
 
 std::string cost_sentence(const DecisionResult& result) {
-  std::string text = fmt::format("Cost: {} runs, {:.3g} grain-steps", static_cast<long long>(result.cost.runs),
-                                 result.cost.grain_steps);
+  std::string text = fmt::format("Cost: {} runs, {} grain-steps", static_cast<long long>(result.cost.runs),
+                                 count_text(result.cost.grain_steps));
   if (result.equal_grid)
     text += fmt::format(
-        "; without leaving layouts out early (Rinott's procedure) it would be {} runs, {:.3g} grain-steps for the same "
+        "; without leaving layouts out early (Rinott's procedure) it would be {} runs, {} grain-steps for the same "
         "confidence",
-        static_cast<long long>(result.equal_grid->runs), result.equal_grid->grain_steps);
+        static_cast<long long>(result.equal_grid->runs), count_text(result.equal_grid->grain_steps));
   return text + ".";
 }
 
@@ -113,8 +114,9 @@ std::string drafts_sentence(const DraftFindings& drafts) {
                      : fmt::format("below {:g} they decide nothing", DraftScreen::least_correlation);
   return fmt::format(
       "Drafts: means of {} pilot layouts correlate by {:.2f} with those at the study's accuracy; {}. They took {} "
-      "runs, {:.3g} grain-steps.",
-      drafts.pilots, *drafts.correlation, so, static_cast<long long>(drafts.cost.runs), drafts.cost.grain_steps);
+      "runs, {} grain-steps.",
+      drafts.pilots, *drafts.correlation, so, static_cast<long long>(drafts.cost.runs),
+      count_text(drafts.cost.grain_steps));
 }
 
 std::string clogging_untested_sentence() {

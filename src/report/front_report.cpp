@@ -13,6 +13,7 @@
 #include "report/expected_report.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
+#include "report/number_text.hpp"
 #include "report/study_page.hpp"
 
 namespace vibrosow {
@@ -167,8 +168,8 @@ std::string front_promise(const OptimiseResult& result) {
 }
 
 std::string front_cost(const OptimiseResult& result) {
-  return fmt::format("Cost: {} layouts, {} runs, {:.3g} grain-steps.", result.layouts.size(),
-                     static_cast<long long>(result.cost.runs), result.cost.grain_steps);
+  return fmt::format("Cost: {} layouts, {} runs, {} grain-steps.", result.layouts.size(),
+                     static_cast<long long>(result.cost.runs), count_text(result.cost.grain_steps));
 }
 
 std::string pareto_csv(const OptimiseResult& result, CsvFormat format) {

@@ -53,6 +53,11 @@ std::string interval_text(double mean, const std::optional<double>& half_width, 
   return fmt::format("{} {} {}", at_place(mean, place), plus_minus, at_place(*half_width, place));
 }
 
+std::string count_text(double count) {
+  if (count >= 999.5e6) return number_text(count / 1e9) + " billion";
+  return count >= 999.5e3 ? number_text(count / 1e6) + " million" : number_text(count);
+}
+
 std::string time_text(double seconds) {
   constexpr std::array<std::pair<double, const char*>, 3> units = {{{1, "s"}, {1e-3, "ms"}, {1e-6, "µs"}}};
   for (const auto& [unit, name] : units)

@@ -17,6 +17,9 @@ std::string number_text(double value, int digits = 3);
 /// to three digits.
 std::string interval_text(double mean, const std::optional<double>& half_width, std::string_view plus_minus = "+-");
 
+/// A large count to three digits: "92 900", "18.6 million", "1.2 billion".
+std::string count_text(double count);
+
 /// Seconds in the unit that suits them: "35 µs", "4.2 ms", "1.5 s".
 std::string time_text(double seconds);
 

@@ -26,6 +26,15 @@ TEST(NumberText, ShowsAMeanToThePlaceOfItsInterval) {
   }
 }
 
+TEST(NumberText, SaysLargeCountsInWords) {
+  EXPECT_EQ(count_text(0), "0");
+  EXPECT_EQ(count_text(999'400), "999\u202f000");
+  EXPECT_EQ(count_text(999'600), "1 million");
+  EXPECT_EQ(count_text(18.63e6), "18.6 million");
+  EXPECT_EQ(count_text(999.6e6), "1 billion");
+  EXPECT_EQ(count_text(53.2e9), "53.2 billion");
+}
+
 TEST(NumberText, ChoosesTheUnitOfATime) {
   for (const auto& one : cases()["times"]) EXPECT_EQ(time_text(one["seconds"]), one["text"].get<std::string>());
 }

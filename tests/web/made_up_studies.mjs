@@ -3,7 +3,7 @@ import { notes } from '../../web/report/light.mjs';
 import { madeUpSweep } from './made_up_sweep.mjs';
 
 const asked = [{ name: 'goal', value: 'rate: mass flow, most' }, { name: 'wanted', value: 'confidence of 95 %' }];
-const cost = ['Cost: 120 runs, 3e+09 grain-steps.', 'The 12 runs of this command took 31.2 s, up to 2 side by side.'];
+const cost = ['Cost: 120 runs, 3 billion grain-steps.', 'The 12 runs of this command took 31.2 s, up to 2 side by side.'];
 const rate = { name: 'rate_g_per_s', heading: 'g/s', unit: 'g/s', description: 'mass flow, most', has_interval: true, wanted: 'high' };
 const power = { name: 'power_W_per_kg', unit: 'W/kg', description: 'greatest power, least', has_interval: true, wanted: 'low' };
 const clogged = { name: 'clogged_percent', unit: '%', description: 'share of its runs that clogged', has_interval: false, words: 'clogged', wanted: 'low' };
