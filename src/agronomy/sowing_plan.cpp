@@ -68,9 +68,11 @@ class Search {
 
   std::vector<PlannedLayout> layouts() {
     std::vector<PlannedLayout> found;
-    for (const HolesForRows& feed : feeds)
+    for (const HolesForRows& feed : feeds) {
+      if (task_.rows % feed.rows != 0) continue;
       for (const double depth : depths())
         for (const double width : widths()) add_layouts(feed, width, depth, found);
+    }
     return found;
   }
 
@@ -276,9 +278,10 @@ SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const Mod
     layout.error = table_error(table, {task.seed.aspect, layout.width_over_d, layout.peak_speed, layout.depth_over_d},
                                task.seed.diameter, model);
   std::ranges::sort(plan.layouts, {}, [&](const PlannedLayout& layout) {
-    return std::tuple(layout.risk(), layout.estimate.stood_still, !layout.reaches_working_speeds(),
-                      -reserve(layout, task.pace.speed), layout.feed.holes, -layout.feed.rows, layout.width,
-                      layout.depth_over_d, layout.frequency);
+    const bool goes_by_largest = task.seed.has_larger() && layout.risk() == HoleClass::clogs;
+    return std::tuple(layout.risk(), goes_by_largest ? -layout.width_over_largest : 0.0, layout.estimate.stood_still,
+                      !layout.reaches_working_speeds(), -reserve(layout, task.pace.speed), layout.feed.holes,
+                      -layout.feed.rows, layout.width, layout.depth_over_d, layout.frequency);
   });
   return plan;
 }

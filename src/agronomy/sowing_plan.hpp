@@ -16,6 +16,7 @@ struct PlannedSeed {
   double mass = 0;      // kg
   double aspect = 1;    // how many times it is as long as wide; its thickness counts through the volume alone
   double largest = 0;   // m, the diameter of the largest lot's seeds, by which holes clog; 0: `diameter`
+  bool has_larger() const { return largest > diameter * (1 + 1e-9); }
 };
 
 /// Of lots in 3D; of seeds of several sizes, and of a mixture by its number fractions, the mean by volume and mass;
@@ -40,6 +41,7 @@ struct SowingTask {
   PlannedSeed seed;
   double sowing_rate = 0;  // kg/m2
   RowPace pace;
+  int rows = 0;  // of the drill, which holes for several must share out evenly; 0: not known
   double row_mass_rate() const { return row_rate(sowing_rate, pace); }                // kg/s
   double row_seed_rate() const { return seeds_of_mass(row_mass_rate(), seed.mass); }  // 1/s
   double seeds_per_area() const { return seeds_of_mass(sowing_rate, seed.mass); }     // 1/m2
@@ -136,7 +138,8 @@ double softness_error(double aspect);
 
 /// All layouts that give the rate: one hole for 4, 3, 2 rows or one, 2 or 3 holes a row; widths in steps of 0.5 mm; the
 /// shallowest and the deepest bed of the table; the amplitude that the table has in seeds, to 0.1 mm; every frequency
-/// within the shaker's limits that gives the rate. Ranked by the hole's class, then the share of holes that stood
+/// within the shaker's limits that gives the rate. Ranked by the hole's class, then, of a mixture's holes that clog, by
+/// how wide they are for its largest seeds, of which the table knows nothing; then by the share of holes that stood
 /// still, then whether working speeds are reached, then by how far the rate can be turned up and down. Those whose rate
 /// is not known to `most_uncertain` are left out. Throws InputError for seeds of an aspect that the table has not.
 SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const ModelError& model,

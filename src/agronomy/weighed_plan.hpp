@@ -11,8 +11,9 @@ namespace vibrosow {
 /// A tray's rate as it was weighed.
 struct WeighedTray {
   TableTray tray;
-  double mass_rate = 0;  // kg/s, of all its holes
-  double deviation = 0;  // of its logarithm
+  double mass_rate = 0;        // kg/s, of all its holes
+  double deviation = 0;        // of its logarithm
+  double repeats_scatter = 0;  // standard deviation of the repeats that it is the mean of, over it
 };
 
 /// What is said of it.
@@ -39,6 +40,9 @@ TrayRates weighed_rates(const std::vector<WeighedTray>& weighed, const HoleTable
 /// What to set the tray to that was weighed, for `needed` (kg/s, of all its holes). Throws as `weighed_rates` does.
 WeighedPlan plan_weighed(double needed, const std::vector<WeighedTray>& weighed, const HoleTable& table,
                          const ModelError& model, const ShakerLimits& limits = {});
+
+/// Above it the repeats of a weighing contradict each other: a scale and a clock err by some 2 %.
+inline constexpr double contradicting_scatter = 0.1;
 
 /// Below it a weighing contradicts the others.
 inline constexpr double surprising = 0.01;

@@ -267,7 +267,7 @@ int run_promise(const AccuracyOptions& options) {
       choices, goal, with_progress(runner, options.common.quiet),
       [&](int runs, double cpu_time) { tell(fmt::format("{} run{} more", runs, runs == 1 ? "" : "s"), cpu_time); });
   const AccuracyTiming timing{.wall_time = clock.seconds(), .jobs = jobs};
-  std::vector<OutputFile> files = promise_files(made, goal, timing, options.common.csv);
+  std::vector<OutputFile> files = promise_files(scene, made, goal, timing, options.common.csv);
   add_page(files, page_template, accuracy_page_data(scene, made, goal));
   write_then_print(
       options.common.quiet, [&] { folder.write(files); },

@@ -50,6 +50,9 @@ std::string setting_text(const std::string& key, double value) {
 }
 
 std::string turn_down_text(const TradeLine& line, double cv_limit) {
+  if (!line.not_excluded && line.unsound > 0)
+    return fmt::format("no turn-down: runs of {} of the {} settings are missing or doubtful", line.unsound,
+                       line.layouts.size());
   if (!line.not_excluded)
     return fmt::format("no turn-down: at no setting do all runs flow with a CV between rows of {:.3g} %",
                        100 * cv_limit);

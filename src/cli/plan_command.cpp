@@ -26,6 +26,7 @@
 #include "input/read_held_out.hpp"
 #include "input/read_hole_table.hpp"
 #include "input/read_scene.hpp"
+#include "outflow/statistics.hpp"
 #include "plan/scene_warnings.hpp"
 #include "report/plan_page.hpp"
 #include "report/plan_report.hpp"
@@ -129,6 +130,7 @@ PlanSource source_of(const PlanOptions& options) {
   task.pace.row_spacing = quantity_option("--row-spacing", options.row_spacing, Dimension::length, 0.01, 10, "15 cm");
   task.pace.speed = quantity_option("--speed", options.speed, Dimension::travel_speed, 0.01, 20);
   source.rows = options.rows;
+  task.rows = options.rows.value_or(0);
   return source;
 }
 
@@ -182,14 +184,23 @@ std::vector<WeighedTray> weighings_of(const PlanOptions& options, const std::str
     const double mass = table.quantity == MeasuredQuantity::seed_rate ? seed_mass : 1;
     rows.push_back(weighed_tray(options.layout, changes, value.mean * mass,
                                 std::max(usual_weighing_error, value.half_width_95.value_or(0) / value.mean)));
+    if (const int repeats = series.repeats.front(); repeats > 1)
+      rows.back().repeats_scatter =
+          value.half_width_95.value_or(0) / value.mean * std::sqrt(repeats) / student_t_95(repeats - 1);
   }
   return rows;
 }
 
-/// How many rows the tray feeds, by its [drill]; else one a hole.
-int rows_of(const std::string& layout) {
-  const Seeder seeder = read_seeder(layout);
-  return seeder.drill ? seeder.drill->rows() : static_cast<int>(seeder.scene.tray.holes.size());
+/// How many rows the tray feeds, by its [drill] or else as asked; else one a hole.
+int rows_of(const PlanOptions& options) {
+  const Seeder seeder = read_seeder(options.layout);
+  if (!seeder.drill) return options.rows.value_or(static_cast<int>(seeder.scene.tray.holes.size()));
+  if (options.rows && *options.rows != seeder.drill->rows())
+    throw InputError(
+        fmt::format("--rows: the [drill] of --layout says how many rows the tray feeds, {}, not {}; leave "
+                    "it out",
+                    seeder.drill->rows(), *options.rows));
+  return seeder.drill->rows();
 }
 
 /// The command that asks again when a layout was weighed.
@@ -232,7 +243,10 @@ int run_weighed(PlanOptions options, const PlanSource& source) {
   const SowingTask& task = source.plan.task;
   const std::string command = asked_again(options);
   options.layout = input_file(options.layout, FileKind::seeder).path.string();
-  print_warnings(scene_warnings(read_scene(options.layout, {})));
+  std::vector<std::string> warnings = scene_warnings(read_scene(options.layout, {}));
+  std::erase_if(warnings,
+                [](const std::string& warning) { return warning.starts_with("contact."); });  // the table has its own
+  print_warnings(warnings);
   std::vector<WeighedTray> weighed;
   for (const std::string& text : options.weighed) {
     if (text.ends_with(".csv"))
@@ -250,7 +264,7 @@ int run_weighed(PlanOptions options, const PlanSource& source) {
         "wide, those of --crop {:.3g} mg, {:.3g} mm and {:.3g} times; give the crop of the layout",
         seed.mass * 1e6, seed.diameter * 1e3, seed.aspect, task.seed.mass * 1e6, task.seed.diameter * 1e3,
         task.seed.aspect));
-  const int rows = rows_of(options.layout);
+  const int rows = rows_of(options);
   const HoleTable table = shipped_hole_table();
   const ModelError model = shipped_model_error();
   const WeighedPlan plan = plan_weighed(rows * task.row_mass_rate(), weighed, table, model);
@@ -316,7 +330,7 @@ void add_plan_command(CLI::App& app, int& exit_code) {
   establishment->needs(plants);
   add("--row-spacing", options->row_spacing, "distance between rows, \"15 cm\"", "LENGTH")->required();
   add("--speed", options->speed, "speed of the drill, \"8 km/h\"", "SPEED")->required();
-  command->add_option("--rows", options->rows, "rows of the drill, for its totals")
+  command->add_option("--rows", options->rows, "rows of the drill: for its totals, and for holes that feed several")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
   add_each("--tkw", options->thousand_grain_weights, "mass of a thousand seeds, \"4.5 g\"; default the crop's", "MASS");

@@ -57,6 +57,11 @@ bool has_clogged(const Evaluation& run) {
   return run.finished() && (run.stopped_flowing() || !all || all->grains == 0);
 }
 
+bool tests_clogging(const Study& study, const DecideOptions& options) {
+  return options.clogging_limit < 1 &&
+         std::ranges::any_of(study.scenes, [](const Scene& scene) { return scene.run.end_after_pause.has_value(); });
+}
+
 std::string first_stop(const std::vector<Evaluation>& runs) {
   const auto stopped = std::ranges::find(runs, EvaluationStatus::stopped, &Evaluation::status);
   return stopped == runs.end() ? "" : fmt::format("random seed {}: {}", stopped->random_seed, stopped->reason);
@@ -75,13 +80,13 @@ StudyDecision::StudyDecision(const Study& study, const DecideOptions& options, c
       options_(options),
       runs_(study, study.scenes, options.first_random_seed),
       failures_(study.scenes.size()),
-      counts_(study.scenes.size(), 0) {
+      counts_(study.scenes.size(), 0),
+      tests_clogging_(tests_clogging(study, options)) {
   check_rates(study, options);
   options_.goal = &goal_between(*options.goal, study.scenes);
   for (std::size_t scene = 0; scene < study.scenes.size(); ++scene) {
     if (!taking_part.empty() && !taking_part[scene]) continue;
     systems_.push_back(scene);
-    tests_clogging_ |= options.clogging_limit < 1 && study.scenes[scene].run.end_after_pause.has_value();
   }
   if (systems_.size() < 2)
     throw InputError(fmt::format("{}: there is nothing to decide: it has one layout", study.title));
@@ -113,6 +118,10 @@ bool StudyDecision::take(const KeptRuns& kept, int jobs) {
   return true;
 }
 
+bool StudyDecision::is_left_out(const Evaluation& run) const {
+  return has_clogged(run) && (tests_clogging_ || !options_.goal->of(run.outflow));
+}
+
 Observation StudyDecision::observed(std::size_t scene, const Evaluation& run) {
   const auto failed = [&](const std::string& reason) {
     if (failures_[scene].empty()) failures_[scene] = fmt::format("random seed {}: {}", run.random_seed, reason);
@@ -120,7 +129,7 @@ Observation StudyDecision::observed(std::size_t scene, const Evaluation& run) {
   };
   if (!run.finished()) return failed(run.reason);
   if (run.outside_the_model) return failed("outside the model");
-  if (has_clogged(run)) return {RunEnd::clogged};
+  if (is_left_out(run)) return {RunEnd::clogged};
   const auto goal = options_.goal->of(run.outflow);
   if (!goal) return failed(std::string(options_.goal->if_none));
   const auto rate = options_.rate ? rate_as_wanted(*options_.rate, run.outflow) : std::optional(0.0);
@@ -141,15 +150,16 @@ SceneDecision StudyDecision::metrics_of(std::size_t scene, const std::optional<R
   metrics.stopped = first_stop(runs_.runs()[scene]);
   metrics.doubts = doubts_of_layout(study_.scenes[scene], runs_.runs()[scene]);
   std::vector<double> goal_values, rates;
-  std::vector<const Outflow*> flowed;
+  std::vector<const Outflow*> counted, flowed;
   const auto rate_of = [&](const Outflow& outflow) {
     return options_.rate ? rate_as_wanted(*options_.rate, outflow) : metric_named("rate_g_per_s").of({outflow});
   };
   for (const Evaluation& run : runs_.runs()[scene]) {
     ++metrics.runs;
     metrics.clogged += has_clogged(run);
-    if (!run.is_sound() || has_clogged(run)) continue;
-    flowed.push_back(&run.outflow);
+    if (!run.is_sound() || is_left_out(run)) continue;
+    counted.push_back(&run.outflow);
+    if (!has_clogged(run)) flowed.push_back(&run.outflow);
     if (const auto goal = options_.goal->of(run.outflow))
       goal_values.push_back(options_.goal->is_most ? -*goal : *goal);
     if (const auto rate = rate_of(run.outflow)) rates.push_back(*rate);
@@ -157,26 +167,26 @@ SceneDecision StudyDecision::metrics_of(std::size_t scene, const std::optional<R
   if (!goal_values.empty()) metrics.goal = mean_with_interval(goal_values);
   if (!rates.empty()) metrics.rate = mean_with_interval(rates);
   metrics.unevenness = unevenness_of(flowed);
-  const ExpectedWithDoubts expected = expected_of(study_.scenes[scene], flowed, knowledge);
+  const ExpectedWithDoubts expected = expected_of(study_.scenes[scene], counted, knowledge);
   metrics.expected = expected.rate;
   for (const Doubt& doubt : expected.doubts) metrics.doubts.push_back({doubt.kind, 0, 0, doubt.text});
   return metrics;
 }
 
-/// By scene and random seed; not a number where the run did not flow.
+/// By scene and random seed; not a number where the run is in no mean.
 std::vector<std::vector<double>> StudyDecision::goals_by_run() const {
   std::vector<std::vector<double>> values;
   for (const std::size_t scene : systems_) {
     values.emplace_back();
     for (const Evaluation& run : runs_.runs()[scene]) {
-      const bool flowed = run.is_sound() && !has_clogged(run);
-      values.back().push_back(flowed ? options_.goal->of(run.outflow).value_or(none) : none);
+      const bool counts = run.is_sound() && !is_left_out(run);
+      values.back().push_back(counts ? options_.goal->of(run.outflow).value_or(none) : none);
     }
   }
   return values;
 }
 
-/// By the variances of at most the first ten runs that flowed.
+/// By the variances of at most the first ten runs that are in the means.
 std::optional<DecisionCost> StudyDecision::equal_grid() const {
   constexpr int first = KimNelson::first_observations;
   std::vector<Moments> goals(systems_.size());

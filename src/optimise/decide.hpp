@@ -63,6 +63,9 @@ struct DecisionResult {
 /// window.
 bool has_clogged(const Evaluation& run);
 
+/// Whether clogging counts against a layout: some may end for want of outflow, and not all may.
+bool tests_clogging(const Study& study, const DecideOptions& options);
+
 /// Of the first of some runs that the guard stopped, the random seed and why; empty without one.
 std::string first_stop(const std::vector<Evaluation>& runs);
 
@@ -89,6 +92,9 @@ class StudyDecision {
   DecisionResult result() const;
 
  private:
+  /// Of every mean: a run that clogged, where that is tested, or that has no value of the goal. Where it is not, what
+  /// lets nothing out counts with its rate of zero.
+  bool is_left_out(const Evaluation& run) const;
   Observation observed(std::size_t scene, const Evaluation& run);
   SceneDecision metrics_of(std::size_t scene, const std::optional<RateKnowledge>& knowledge) const;
   std::vector<std::vector<double>> goals_by_run() const;
@@ -99,9 +105,9 @@ class StudyDecision {
   SceneRuns runs_;
   std::vector<std::size_t> systems_;   // the scene of each
   std::vector<std::string> failures_;  // by scene
-  bool tests_clogging_ = false;
   std::unique_ptr<Procedure> procedure_;
   std::vector<int> counts_;  // runs asked for, by scene
+  bool tests_clogging_;
 };
 
 /// Mean correlation between systems of what they give in the same observations (not a number: none), over the pairs

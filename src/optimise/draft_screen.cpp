@@ -41,6 +41,7 @@ std::vector<std::size_t> spread_evenly(std::size_t count, std::size_t among) {
 DraftScreen::DraftScreen(const Study& study, const DecideOptions& options)
     : study_(study),
       options_(options),
+      tests_clogging_(tests_clogging(study, options)),
       drafts_(drafts_of(study)),
       own_(study, study.scenes, options.first_random_seed),
       as_drafts_(study, drafts_, options.first_random_seed),
@@ -75,19 +76,19 @@ std::optional<double> DraftScreen::mean_of(const SceneRuns& of, std::size_t scen
   Moments moments;
   for (const Evaluation& run : of.runs()[scene]) {
     if (!run.is_sound()) return std::nullopt;
-    if (has_clogged(run)) continue;
     const auto goal = options_.goal->of(run.outflow);
+    if (has_clogged(run) && (tests_clogging_ || !goal)) continue;
     if (!goal) return std::nullopt;
     moments.add(*goal);
   }
   return moments.count() > 0 ? std::optional(moments.mean()) : std::nullopt;
 }
 
-/// As a draft: none of its runs clogged, and the mean rate is in the band.
+/// As a draft: none of its runs clogged, where that is tested, and the mean rate is in the band.
 bool DraftScreen::met_the_constraints(std::size_t scene) const {
   Moments rates;
   for (const Evaluation& run : as_drafts_.runs()[scene]) {
-    if (has_clogged(run)) return false;
+    if (has_clogged(run) && tests_clogging_) return false;
     if (!options_.rate) continue;
     if (const auto rate = rate_as_wanted(*options_.rate, run.outflow)) rates.add(*rate);
   }

@@ -58,6 +58,7 @@ class DraftScreen {
 
   const Study& study_;
   DecideOptions options_;
+  bool tests_clogging_;
   std::vector<Scene> drafts_;
   SceneRuns own_, as_drafts_;
   std::vector<std::size_t> pilots_;  // scenes

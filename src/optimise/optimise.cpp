@@ -197,7 +197,8 @@ std::optional<double> StudyOptimisation::goal_of(const FrontGoal& goal, const Tr
     const auto rate = rate_as_wanted(*options_.rate, outflow);
     return rate ? std::optional(2 * *rate / (options_.rate->low + options_.rate->high)) : std::nullopt;
   }
-  const double rate = rate_as(Variant::as_it_is, trial, run);  // above 0: the run has not clogged
+  const double rate = rate_as(Variant::as_it_is, trial, run);
+  if (!(rate > 0)) return std::nullopt;
   if (goal.kind == Kind::fill_sensitivity) return (1 - rate_as(Variant::less_fill, trial, run) / rate) / fill_change;
   return (rate_as(Variant::faster, trial, run) - rate_as(Variant::slower, trial, run)) / rate / (2 * frequency_change);
 }
@@ -214,11 +215,12 @@ FrontObservation StudyOptimisation::observed(Trial& trial, std::size_t run) cons
     if (one.outside_the_model) return failed(one.random_seed, "outside the model");
     clogged |= has_clogged(one);
   }
-  if (clogged) return {RunEnd::clogged};
+  if (clogged && options_.clogging_limit < 1) return {RunEnd::clogged};
   const Evaluation& whole = evaluation(Variant::as_it_is, trial, run);
   FrontObservation seen;
   for (const FrontGoal* goal : options_.goals) {
     const auto value = goal_of(*goal, trial, run);
+    if (!value && clogged) return {RunEnd::clogged};
     if (!value) return failed(whole.random_seed, fmt::format("it has no {}", goal->column));
     seen.goals.push_back(*value);
   }
@@ -256,7 +258,6 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
     std::ranges::copy(runs.runs()[*trial.scene], std::back_inserter(of_all_variants));
   result.doubts = doubts_of_layout(generation.study.scenes[*trial.scene], of_all_variants);
   result.runs = search_->front().observations(layout);
-  result.clogged = search_->front().clogged(layout);
   const std::vector<KnownMean> known = search_->front().known(layout);
   for (std::size_t g = 0; g < options_.goals.size(); ++g) {
     const FrontGoal& goal = *options_.goals[g];
@@ -268,15 +269,18 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
     if (goal.metric != nullptr && goal.metric->is_most) mean = -mean;
   }
   std::vector<double> rates;
-  std::vector<const Outflow*> flowed;
+  std::vector<const Outflow*> counted, flowed;
   for (std::size_t r = 0; r < static_cast<std::size_t>(result.runs); ++r) {
     const Evaluation& run = evaluation(Variant::as_it_is, trial, r);
-    if (!run.is_sound() || has_clogged(run)) continue;
+    result.clogged +=
+        std::ranges::any_of(variants_, [&](Variant variant) { return has_clogged(evaluation(variant, trial, r)); });
+    if (!run.is_sound() || (has_clogged(run) && options_.clogging_limit < 1)) continue;
     rates.push_back(rate_as(Variant::as_it_is, trial, r));
-    flowed.push_back(&run.outflow);
+    counted.push_back(&run.outflow);
+    if (!has_clogged(run)) flowed.push_back(&run.outflow);
   }
   result.unevenness = unevenness_of(flowed);
-  const ExpectedWithDoubts expected = expected_of(generation.study.scenes[*trial.scene], flowed, knowledge);
+  const ExpectedWithDoubts expected = expected_of(generation.study.scenes[*trial.scene], counted, knowledge);
   result.expected = expected.rate;
   for (const Doubt& doubt : expected.doubts) result.doubts.push_back({doubt.kind, 0, 0, doubt.text});
   if (options_.rate)

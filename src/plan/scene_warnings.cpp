@@ -222,7 +222,8 @@ void warn_of_free_rolling(const Scene& scene, const Vessel& vessel, Warnings& wa
   const double layers = vessel.fill->count / most_seeds(scene, vessel, mean_diameter(scene));
   if (layers > thin) return;
   warnings.push_back(
-      fmt::format("contact.wall.rolling_friction: is 0, and round seeds lie {:.2g} deep on the floor of the {}: they "
+      fmt::format("contact.wall.rolling_friction: is 0, and round seeds lie in a thin bed ({:.2g} layers) on the floor "
+                  "of the {}: they "
                   "roll on it and are hardly carried; "
                   "give it (0.02 for smooth seeds), with rolling = \"spring\"",
                   layers, vessel.name));

@@ -454,18 +454,30 @@ std::string promise_text(const Promise& promise, const PromiseGoal& goal) {
   return text;
 }
 
-std::string promised_numerics(const Promise& promise, const PromiseGoal& goal) {
-  const AccuracySetting& setting = promise.settings[promise.offer->setting];
+std::string promised_numerics(const Scene& scene, const Promise& promise, const PromiseGoal& goal) {
+  AccuracySetting setting = promise.settings[promise.offer->setting];
+  const Scene set = scene_with(scene, setting);
   std::string text = fmt::format("# A rate {}: the mean of {} runs errs by at most {} (95 %).\n[contact]\n",
                                  goal_text(goal), promise.offer->replicates, share(promise.offer->error_bound()));
-  if (setting.shell_compression > 0)
-    text += fmt::format("shell_compression = {:.4g}\n", setting.shell_compression);
+  const auto in_megapascal = [](double modulus) { return fmt::format("\"{:.4g} MPa\"", modulus / megapascal); };
+  const bool has_shell = setting.shell_compression > 0;
+  if (has_shell)
+    text += fmt::format("shell_compression = {:.4g}\n", set.contact.shell_compression);
   else
-    text += fmt::format("youngs_modulus = \"{:.4g} MPa\"\n", setting.youngs_modulus / megapascal);
+    text += fmt::format("youngs_modulus = {}\n", in_megapascal(set.contact.youngs_modulus));
+  if (set.contact.wall_youngs_modulus)
+    text += fmt::format("wall_youngs_modulus = {}\n", in_megapascal(*set.contact.wall_youngs_modulus));
   if (setting.slip_speed > 0)
     text += fmt::format("slip_speed = \"{:.4g} mm/s\"\n", setting.slip_speed / millimetre_per_second);
-  return text + fmt::format("[numerics]\nintegrator = \"{}\"\nsteps_per_contact = {:.4g}\n",
-                            integrator_name(setting.integrator), setting.steps_per_contact);
+  text += fmt::format("[numerics]\nintegrator = \"{}\"\nsteps_per_contact = {:.4g}\n",
+                      integrator_name(setting.integrator), setting.steps_per_contact);
+  for (const SeedLot& lot : set.lots) {  // those with a softness of their own
+    if (has_shell && lot.shell_compression)
+      text += fmt::format("[seeds.{}]\nshell_compression = {:.4g}\n", lot.name, *lot.shell_compression);
+    if (!has_shell && lot.youngs_modulus)
+      text += fmt::format("[seeds.{}]\nyoungs_modulus = {}\n", lot.name, in_megapascal(*lot.youngs_modulus));
+  }
+  return text;
 }
 
 std::vector<FileText> accuracy_file_texts() {
@@ -508,11 +520,11 @@ std::vector<OutputFile> accuracy_files(const AccuracyResult& result, const Accur
   return files_of(result, timing, "", format);
 }
 
-std::vector<OutputFile> promise_files(const Promise& promise, const PromiseGoal& goal, const AccuracyTiming& timing,
-                                      CsvFormat format) {
+std::vector<OutputFile> promise_files(const Scene& scene, const Promise& promise, const PromiseGoal& goal,
+                                      const AccuracyTiming& timing, CsvFormat format) {
   std::vector<OutputFile> files = files_of(result_of(promise), timing, promise_cost(promise), format);
   files.push_back({"promise.json", json_of(promise_keys(), PromiseSource{&promise, &goal})});
-  if (promise.offer) files.push_back({"numerics.toml", promised_numerics(promise, goal)});
+  if (promise.offer) files.push_back({"numerics.toml", promised_numerics(scene, promise, goal)});
   return files;
 }
 

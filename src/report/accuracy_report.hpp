@@ -55,8 +55,8 @@ std::string promise_cost(const Promise& promise);
 /// Both for a terminal.
 std::string promise_text(const Promise& promise, const PromiseGoal& goal);
 
-/// The keys of a seeder that set it to an offer's setting, as TOML.
-std::string promised_numerics(const Promise& promise, const PromiseGoal& goal);
+/// The keys of a seeder that set the scene to an offer's setting, as TOML: also of lots with a softness of their own.
+std::string promised_numerics(const Scene& scene, const Promise& promise, const PromiseGoal& goal);
 
 /// What the files of the command hold.
 std::vector<FileText> accuracy_file_texts();
@@ -72,7 +72,7 @@ std::vector<OutputFile> accuracy_files(const AccuracyResult& result, const Accur
                                        CsvFormat format = {});
 
 /// The same of a promise's runs, promise.json and, where there is an offer, numerics.toml.
-std::vector<OutputFile> promise_files(const Promise& promise, const PromiseGoal& goal, const AccuracyTiming& timing,
-                                      CsvFormat format = {});
+std::vector<OutputFile> promise_files(const Scene& scene, const Promise& promise, const PromiseGoal& goal,
+                                      const AccuracyTiming& timing, CsvFormat format = {});
 
 }  // namespace vibrosow

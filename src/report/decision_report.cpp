@@ -63,8 +63,10 @@ Columns<DecisionRow> decision_columns(const std::vector<std::string>& keys) {
   append(columns, key_columns<DecisionRow>(keys));
   append(columns, {text_column<DecisionRow>("runs", "after which it was decided, so far those that were made",
                                             [](R r) { return r.of() ? r.of()->runs : 0; }),
-                   text_column<DecisionRow>("clogged", "of these, runs that clogged; the means are of the others",
-                                            [](R r) { return r.of() ? r.of()->clogged : 0; })});
+                   text_column<DecisionRow>(
+                       "clogged",
+                       "of these, runs that clogged; the means are of the others where clogging is tested, else of all",
+                       [](R r) { return r.of() ? r.of()->clogged : 0; })});
   add_decided_columns(columns, "goal", "the goal's figure of a single run, in its unit (decision.json names it)",
                       metric_of_goal, [](const SceneDecision& of) { return of.goal; });
   add_decided_columns(columns, "rate",

@@ -58,6 +58,8 @@ std::string metrics_sentence(const DecisionResult& result, std::size_t scene, st
   if (options.rate && of.rate)
     text += fmt::format("{} of the tray{}, ", in_metric(*of.rate, rate_metric(options.rate)),
                         of_plane(result.study.scenes[scene].space));
+  if (!result.tests_clogging && of.clogged > 0)
+    return text + fmt::format("nothing came in {} of {} runs, which count as 0", of.clogged, of.runs);
   return text + fmt::format("clogged in {} of {} runs", of.clogged, of.runs);
 }
 

@@ -127,8 +127,8 @@ Columns<TradeRow> trade_columns(const std::vector<std::string>& keys) {
          }});
   add_turn_down(
       columns, "turn_down",
-      "largest over smallest rate between settings that all flow to the end and whose CV between rows may be "
-      "within drill.cv_limit; empty where none may",
+      "largest over smallest rate between settings that all flow to the end, without a serious doubt, and whose CV "
+      "between rows may be within drill.cv_limit; empty where none may",
       [](R r) -> const auto& { return r.line->not_excluded; });
   add_turn_down(
       columns, "turn_down_shown", "the same of settings whose CV is shown to be: its whole 95 % interval is",

@@ -56,9 +56,11 @@ Columns<FrontRow> pareto_columns(const std::vector<std::string>& keys, const std
   columns.push_back(text_column<FrontRow>("at_edge", "keys whose values end their ranges",
                                           [](R r) { return fmt::format("{}", fmt::join(r.of().at_edge, " ")); }));
   append(columns, key_columns<FrontRow>(keys));
-  append(columns, {text_column<FrontRow>("runs", "of the layout as it is", [](R r) { return r.of().runs; }),
-                   text_column<FrontRow>("clogged", "of these, runs that clogged; the means are of the others",
-                                         [](R r) { return r.of().clogged; })});
+  append(columns,
+         {text_column<FrontRow>("runs", "of the layout as it is", [](R r) { return r.of().runs; }),
+          text_column<FrontRow>(
+              "clogged", "of these, runs that clogged; the means are of the others, or where all may clog of all",
+              [](R r) { return r.of().clogged; })});
   for (const FrontGoal* goal : goals)
     add_mean_columns(columns, std::string(goal->column), Unit{goal->unit, goal->unit_size},
                      fmt::format("goal {} (empty where not asked for), {}", goal->name, goal->description),

@@ -53,7 +53,7 @@ std::string card_row(const PlanPage& page, const CardRow& row) {
   if (!row.setting) return text + "<td class=\"say\" colspan=\"4\">not with this tray</td></tr>\n";
   const CorrectedSetting& set = *row.setting;
   text += cell(fmt::format("{:.3g}", set.frequency)) +
-          cell(to_digits(set.width / millimetre, 3) + (row.is_other_width ? "*" : "")) +
+          cell(to_digits(set.width / millimetre, 3) + (row.is_other_width ? "*" : "") + (row.clogs ? " clogs" : "")) +
           cell(range(set.low, set.high, gram)) +
           cell(range(sown_at(page, row, set.low), sown_at(page, row, set.high), kilogram_per_hectare));
   return text + "</tr>\n";
@@ -81,6 +81,13 @@ std::string reading_text(const PlanCard& card) {
         "and "
         "shake at {:.3g} Hz. A slide's opening is not round: weigh it.",
         card.tray.frequency);
+  if (std::ranges::any_of(lines, &CardRow::clogs))
+    text += fmt::format(
+        " clogs: narrower than {:g} of the largest seeds, {} mm, so not a setting to sow with; drive faster, or feed "
+        "more "
+        "rows from a hole.",
+        kept_open_from,
+        to_digits(kept_open_from * std::max(card.tray.seed.largest, card.tray.seed.diameter) / millimetre, 3));
   return text;
 }
 

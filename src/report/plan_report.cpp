@@ -61,8 +61,9 @@ Columns<PlannedLayoutRow> plan_columns() {
       text_column<PlannedLayoutRow>("rows", "the rows", [](R r) { return r.layout->feed.rows; }),
       quantity_column<PlannedLayoutRow>("width_mm", millimetres, "of a round hole",
                                         [](R r) { return r.layout->width; }),
-      quantity_column<PlannedLayoutRow>("width_over_seed", plain, "over the diameter of the ball of a seed's volume",
-                                        [](R r) { return r.layout->width_over_d; }),
+      quantity_column<PlannedLayoutRow>("width_over_seed", plain,
+                                        "over the diameter of the ball of a seed's volume; of a mixture's largest crop",
+                                        [](R r) { return r.layout->width_over_largest; }),
       text_column<PlannedLayoutRow>("risk",
                                     "of clogging, by the hole over the largest crop's seed: rarely clogs (5 and more), "
                                     "kept open by the shaking (3 to 5), clogs",
@@ -259,7 +260,7 @@ std::string table_text(const SowingPlan& plan) {
     const FactorRange expected = expected_range(layout->error);
     text += fmt::format("{:>5} {:>5.1f} {:>6.2f} {:>5.1f} {:>6.2f} {:>6.1f} {:>14} {:>10} {:>7}  {}\n",
                         fmt::format("{}:{}", layout->feed.holes, layout->feed.rows), layout->width / millimetre,
-                        layout->width_over_d, layout->depth_over_d * plan.task.seed.diameter / millimetre,
+                        layout->width_over_largest, layout->depth_over_d * plan.task.seed.diameter / millimetre,
                         layout->frequency, layout->amplitude / millimetre,
                         fmt::format("{} to {}{}", speed_text(layout->speeds.least), speed_text(layout->speeds.most),
                                     layout->reaches_working_speeds() ? "*" : " "),
@@ -285,8 +286,9 @@ std::string table_text(const SowingPlan& plan) {
   line("speeds", fmt::format("at which frequency alone keeps the sowing rate; *: all of {} to {} km/h",
                              speed_text(working_speeds.least), speed_text(working_speeds.most)));
   line("expect", "range of the true rate until you weigh (95 %), of the planned one");
-  line("stood still", fmt::format("share of the simulated holes that once let nothing through for {} s",
-                                  to_digits(long_pause * unit_of_time(plan), 2)));
+  line("stood still", fmt::format("share of the simulated holes that once let nothing through for {} s{}",
+                                  to_digits(long_pause * unit_of_time(plan), 2),
+                                  plan.task.seed.has_larger() ? "; of the mean seed" : ""));
   line("more by", "whether faster or slower shaking sows more");
   return text;
 }
@@ -424,6 +426,9 @@ std::string weighed_row_text(const WeighedRow& row) {
   if (row.surprise < surprising)
     text += fmt::format(": this contradicts {} (so far off in {} % of cases): weigh again, and look at the unit",
                         "the other rows and what the model errs by", two_digit_percent(row.surprise));
+  if (weighed.repeats_scatter > contradicting_scatter)
+    text += fmt::format(": its repeats scatter by {} %, so they contradict each other: look at each, and weigh again",
+                        two_digit_percent(weighed.repeats_scatter));
   return text;
 }
 

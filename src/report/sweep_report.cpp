@@ -217,6 +217,7 @@ Columns<MeasuredRow> comparison_columns() {
       text_column<MeasuredRow>("layout", "number of the layout, in the order of the study",
                                [](R r) { return r.result->study.layouts[r.row->layout].number; }),
       text_column<MeasuredRow>("hole", "number of the hole from the left, or all", [](R r) { return r.row->hole; }),
+      text_column<MeasuredRow>("lot", "name of the lot, or all", [](R r) { return r.row->lot; }),
       quantity_column<MeasuredRow>("time_s", seconds, "of a point of a curve; empty for a rate",
                                    [](R r) { return r.row->time; }),
       quantity_column<MeasuredRow>("measured", plain, "in the unit of the measured table",

@@ -36,12 +36,12 @@ struct PresetFile {
   bool operator==(const PresetFile&) const { return true; }
 };
 
-/// What a vessel in 2D says of its slots in 3D, where they need not reach from front to back. Says nothing about the
-/// scene, so any two are equal.
+/// What a vessel in 2D says of its slots in 3D, where they need not reach from front to back: no run depends on it, but
+/// what its rates stand for does.
 struct SlotsIn3d {
   int rows = 1;
   double open = 1;  // of the depth, all rows together
-  bool operator==(const SlotsIn3d&) const { return true; }
+  bool operator==(const SlotsIn3d&) const = default;
 };
 
 /// Decides the moment of inertia: m r^2 / 2 for a disc, 2 m r^2 / 5 for a ball, for a clump that of a uniform plate, in

@@ -537,6 +537,14 @@ void fields(Io& io, VesselMotion& motion) {
 }
 
 template <class Io>
+void fields(Io& io, SlotsIn3d& slots) {
+  io.value("rows", slots.rows);
+  io.value("open", slots.open);
+  range(io, slots.rows >= 1, "rows", "is out of range");
+  range(io, slots.open, 0, 1, "open");
+}
+
+template <class Io>
 void fields(Io& io, Vessel& vessel) {
   io.used("name", vessel.name, io.key(), false);
   range(io, printable(vessel.name) == vessel.name, "name", "has control characters");
@@ -548,6 +556,7 @@ void fields(Io& io, Vessel& vessel) {
   io.value("funnel_rad", vessel.funnel);
   io.nullable("depth_m", vessel.depth);
   io.value("holes", vessel.holes);
+  io.used("slots_in_3d", vessel.slots_in_3d, SlotsIn3d{}, false);
   io.value("pieces", vessel.pieces);
   no_more_than(io, vessel.pieces, list_limits::pieces, "pieces");
   io.value("box", vessel.box);

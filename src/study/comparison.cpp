@@ -142,7 +142,7 @@ void add_rows(Comparison& comparison, const Pairing& pairing, double scale) {
   for (std::size_t i = 0; i < pairing.measured.size(); ++i) {
     std::vector<double> values;
     for (const auto& one : pairing.simulated) values.push_back(one[i] * scale);
-    comparison.rows.push_back({pairing.match->layout, pairing.series->hole,
+    comparison.rows.push_back({pairing.match->layout, pairing.series->hole, pairing.series->lot,
                                pairing.times.empty() ? std::nullopt : std::optional(pairing.times[i]),
                                pairing.measured[i], mean_with_interval(values)});
   }

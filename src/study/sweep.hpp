@@ -65,7 +65,7 @@ struct LayoutResult {
 /// A measured value beside the simulated one, scaled; SI.
 struct ComparisonRow {
   std::size_t layout;  // index in Study::layouts
-  std::string hole;
+  std::string hole, lot;
   std::optional<double> time;  // s, of a curve
   double measured;
   MeanWithInterval simulated;

@@ -69,6 +69,11 @@ bool has_doubted_runs(const LayoutResult& layout) {
   });
 }
 
+/// Whether its rate is not known, so that nothing is said of it as a setting.
+bool is_unsound(const LayoutResult& layout) {
+  return layout.stopped_flowing == 0 && (!rate_of(layout) || has_doubted_runs(layout));
+}
+
 Setting setting_of(const LayoutResult& layout, const Drill& drill, double value) {
   const std::optional<MeanWithInterval> rate = rate_of(layout);
   if (!rate) return {.value = value, .flowed = false};
@@ -91,6 +96,7 @@ TradeLine line_of(const StudyResult& result, const Followed& along, const std::v
     const Layout& layout = result.study.layouts[i];
     const double value = *along.of(result.study.scenes[*layout.scene]);
     settings.push_back(setting_of(result.layouts[i], *layout.drill, value));
+    line.unsound += is_unsound(result.layouts[i]) ? 1 : 0;
     if (const auto rate = rate_of(result.layouts[i])) rates.push_back({value, rate->mean, rate->half_width_95});
   }
   if (along.is_slope) {

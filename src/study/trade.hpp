@@ -14,7 +14,8 @@ struct TradeLine {
   std::string key;
   std::vector<std::size_t> layouts;                 // indices in Study::layouts, in the order of the study
   std::optional<TurnDown> shown{}, not_excluded{};  // where the key drives the tray
-  std::optional<SlopeSensitivity> slope{};          // where it is the tilt
+  std::size_t unsound = 0;                  // layouts that are no settings: runs are missing, stopped or doubtful
+  std::optional<SlopeSensitivity> slope{};  // where it is the tilt
 };
 
 /// One for each such set of at least two layouts of a seeder with a drill: along the frequency and the amplitude of the

@@ -8,11 +8,16 @@
 #include <functional>
 
 #include "accuracy/accuracy_doubts.hpp"
+#include "input/read_scene.hpp"
 #include "made_up_rates.hpp"
 #include "report/accuracy_report.hpp"
 
 namespace vibrosow {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
 
 PromiseChoices choices(const std::vector<double>& slip_speeds = {}) {
   return {.design = made_up_design(slip_speeds)};
@@ -315,9 +320,18 @@ TEST(Promise, WritesTheKeysOfASeeder) {
   const PromiseGoal goal{.within_percent = 3};
   const Promise made = promise_of({}, goal);
   ASSERT_TRUE(made.offer);
-  EXPECT_THAT(promised_numerics(made, goal),
-              testing::AllOf(testing::HasSubstr("[contact]\nshell_compression = "), testing::HasSubstr("[numerics]\n"),
-                             testing::HasSubstr("integrator = \"velocity-verlet\"\nsteps_per_contact = ")));
+  Scene scene = read_scene(VIBROSOW_SOURCE_DIR "/seeders/wheat-tray.toml");
+  EXPECT_THAT(promised_numerics(scene, made, goal),
+              AllOf(HasSubstr("[contact]\nshell_compression = "), HasSubstr("[numerics]\n"),
+                    HasSubstr("integrator = \"velocity-verlet\"\nsteps_per_contact = ")));
+  const double asked = made.settings[made.offer->setting].shell_compression;
+  EXPECT_THAT(promised_numerics(scene, made, goal), Not(HasSubstr("[seeds.")));
+  scene.lots[0].shell_compression = 3 * scene.contact.shell_compression;
+  scene.lots.push_back(scene.lots[0]);
+  scene.lots[1].name = "soft", scene.lots[1].shell_compression = 9 * scene.contact.shell_compression;
+  const std::string of_lots = promised_numerics(scene, made, goal);
+  EXPECT_THAT(of_lots, HasSubstr(fmt::format("[seeds.{}]\nshell_compression = {:.4g}\n", scene.lots[0].name, asked)));
+  EXPECT_THAT(of_lots, HasSubstr(fmt::format("[seeds.soft]\nshell_compression = {:.4g}\n", 3 * asked)));
 }
 
 }  // namespace

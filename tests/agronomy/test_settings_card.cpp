@@ -117,6 +117,23 @@ TEST_F(Card, OfAWeighedTrayIsCorrectedAndNarrower) {
   EXPECT_GE(compared, 3);
 }
 
+/// Slow drills need less than the tray's own holes give: other widths serve, down to such as clog.
+TEST_F(Card, WidthsThatClogAreSaidTo) {
+  const TrayRates rates = planned(plan.layouts.front());
+  const auto clogging = [&](double largest) {
+    SowingTask mixed = task;
+    mixed.seed.largest = largest;
+    int count = 0;
+    for (const CardRow& row : settings_card(rates, mixed, plan.layouts.front().feed.rows)) {
+      EXPECT_EQ(row.clogs, row.is_other_width && row.setting->width < kept_open_from * std::max(largest, 4e-3));
+      count += row.clogs ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_GT(clogging(1), 0) << "nothing is wide for seeds of a metre";
+  EXPECT_LE(clogging(0), clogging(6e-3));
+}
+
 TEST_F(Card, SaysWhereTheTableHasNothing) {
   task.sowing_rate *= 1000;
   const PlannedLayout& best = plan.layouts.front();

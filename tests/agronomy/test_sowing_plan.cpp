@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -257,6 +258,32 @@ TEST(Mixture, ItsHolesClogByTheLargestCrop) {
   if (mixed.change.kept_open) {
     EXPECT_NEAR(mixed.change.kept_open->width, 24e-3, 1e-12);
   }
+}
+
+/// That no hole stood still is known of the mean seed alone.
+TEST(Mixture, OfHolesThatClogTheWidestComesFirst) {
+  SowingTask task = task_of(300);
+  task.seed.largest = 20e-3;
+  const SowingPlan plan = plan_sowing(task, table(), other_materials);
+  ASSERT_GT(plan.layouts.size(), 1u);
+  for (std::size_t i = 1; i < plan.layouts.size(); ++i) {
+    EXPECT_EQ(plan.layouts[i].risk(), HoleClass::clogs);
+    EXPECT_GE(plan.layouts[i - 1].width, plan.layouts[i].width);
+  }
+}
+
+TEST(SowingPlan, HolesFeedTheRowsThatADrillHas) {
+  SowingTask task = task_of(300);
+  const auto feeds_of = [&](int rows) {
+    task.rows = rows;
+    std::set<int> fed;
+    for (const PlannedLayout& layout : plan_sowing(task, table(), other_materials).layouts)
+      fed.insert(layout.feed.rows);
+    return fed;
+  };
+  EXPECT_TRUE(std::ranges::includes(std::set{1, 2, 4}, feeds_of(20)));
+  EXPECT_TRUE(std::ranges::includes(std::set{1}, feeds_of(1)));
+  EXPECT_TRUE(feeds_of(0).contains(3)) << "a drill whose rows are not known";
 }
 
 }  // namespace

@@ -223,6 +223,31 @@ TEST(Decide, NothingByRunsOutsideTheModel) {
   EXPECT_FALSE(result.scenes[2].rate);
 }
 
+/// Two thirds of the widest's windows have no seed: it lets out least, though it would most where it flows.
+TEST(Decide, AnEmptyWindowCountsWhereCloggingIsNotTested) {
+  const StudyFiles files;
+  const Simulator widest_is_often_empty = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = noisy_run(model, options);
+    if (model.scene.tray.holes[0].width > 0.0135 && options.random_seed % 3 != 0) run.events.clear(), run.balance = {};
+    return run;
+  };
+  DecideOptions options = most_flow();
+  options.rate = read_wanted_rate("3000 seeds/s +- 20 %");
+  for (const SelectionRule rule : {SelectionRule::guaranteed, SelectionRule::posterior}) {
+    options.rule = rule;
+    const Study study = widths(files);
+    StudyDecision decision(study, options);
+    const DecisionResult result = lead(decision, widest_is_often_empty).result;
+    EXPECT_FALSE(result.tests_clogging);
+    EXPECT_EQ(result.best, 1u);
+    EXPECT_EQ(result.scenes[2].standing, Standing::misses_the_rate);
+    const SceneDecision& widest = result.scenes[2];
+    const double flowed = widest.runs - widest.clogged, of_the_tray = 15 * 420 / 2.0 * flowed / widest.runs;
+    EXPECT_GT(widest.clogged, 0);
+    EXPECT_NEAR(widest.rate->mean, of_the_tray, 0.05 * of_the_tray);
+  }
+}
+
 TEST(Decide, RefusesWhatCannotBeDecided) {
   const StudyFiles files;
   const Study alone = read_study(files.study("title = \"alone\"\n"));

@@ -217,7 +217,8 @@ TEST(SceneWarnings, BallsInAThinLayerThatRollFreely) {
   Scene thin = sound();
   thin.tray.fill->count = 150;
   thin.contact.wall.rolling_friction = 0;
-  const auto told = ElementsAre(StartsWith("contact.wall.rolling_friction: is 0, and round seeds lie 1 deep"));
+  const auto told =
+      ElementsAre(StartsWith("contact.wall.rolling_friction: is 0, and round seeds lie in a thin bed (1 layers)"));
   EXPECT_THAT(scene_warnings(thin), told);
   thin.contact.overrides = {{0, -1, {.friction = 0.3}}};
   EXPECT_THAT(scene_warnings(thin), told);

@@ -134,7 +134,7 @@ TEST_F(AccuracyPage, APromiseThatCannotBeKeptSaysWhy) {
   EXPECT_EQ(page["within_percent"], 3.0);
   EXPECT_EQ(page["levels"][0]["chosen"], false);
   EXPECT_THAT(page.dump(), Not(HasSubstr("CPU")));
-  const std::vector<OutputFile> files = promise_files(promise, goal, {});
+  const std::vector<OutputFile> files = promise_files(scene_, promise, goal, {});
   const auto times = std::ranges::find(files, "timing.json", &OutputFile::name);
   EXPECT_THAT(times->content, HasSubstr("Cost: 0 pilots 0 s of CPU time."));
   const std::string html =

@@ -182,6 +182,11 @@ TEST(WeighedText, SaysWhatToSetAndHowSureItIs) {
   EXPECT_THAT(unwrapped(weighed_text(source, 2, weighed_plan(3))), HasSubstr("Take a narrower hole"));
   EXPECT_THAT(unwrapped(weighed_text(source, 2, weighed_plan(0.3))), HasSubstr("Take a wider hole"));
   EXPECT_THAT(unwrapped(weighed_text(source, 1, weighed_plan(20))), HasSubstr("this contradicts"));
+  WeighedPlan of_repeats = weighed_plan(1.1);
+  of_repeats.rows[0].weighed.repeats_scatter = 0.09;
+  EXPECT_THAT(unwrapped(weighed_text(source, 2, of_repeats)), Not(HasSubstr("contradict")));
+  of_repeats.rows[0].weighed.repeats_scatter = 0.47;
+  EXPECT_THAT(unwrapped(weighed_text(source, 2, of_repeats)), HasSubstr("its repeats scatter by 47 %"));
 }
 
 /// 100 kg/ha of wheat and 50 kg/ha of peas.

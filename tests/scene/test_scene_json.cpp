@@ -450,7 +450,7 @@ Vessel any_vessel() {
   for (double* number : {&length, &height, &tilt, &funnel, &front}) *number = any_number();
   depth = maybe(any_number);
   holes = any_list(any_hole);
-  slots_in_3d = {2, 0.5};  // of no scene: any two are equal
+  slots_in_3d = {*rc::gen::inRange(1, 4), *rc::gen::element(1.0, 0.5)};
   pieces = any_list(any_piece);
   box = any_choice();
   sides = any_of_first<Sides>(3);

@@ -360,6 +360,22 @@ TEST(Study, WarningsAreToldOnceWithTheirLayouts) {
               ElementsAre(testing::StartsWith("tray.holes.width")));
 }
 
+/// What slots are in 3D changes no run in 2D, but what its rates stand for, and which rows were measured there.
+TEST(Study, SlotsThatDifferIn3dAloneAreLayoutsOfTheirOwn) {
+  const StudyFiles files;
+  files.write("bench.csv", "tray.holes.across_mm,rate_g_per_s\n60,340\n12,65\n");
+  const std::string across = "[vary]\ntray.holes.across = [\"6 cm\", \"12 mm\"]\n";
+  const Study study = read_study(files.study(across + "[measured]\nfile = \"bench.csv\"\n"));
+  EXPECT_EQ(study.scenes.size(), 2u);
+  EXPECT_THAT(study_warnings(study),
+              testing::Contains(testing::StartsWith("layout 2: tray.holes.across: in 2D slots")));
+  ASSERT_EQ(study.measured->matches.size(), 2u);
+  for (const MeasuredMatch& match : study.measured->matches) EXPECT_EQ(match.layout, match.series);
+  const Study rows = read_study(files.study("[vary]\ntray.holes.rows = [1, 3]\ntray.holes.across = [\"12 mm\"]\n"));
+  EXPECT_THAT(study_warnings(rows),
+              testing::Contains(testing::StartsWith("layout 2: tray.holes.rows: in 2D one hole")));
+}
+
 TEST(Study, FileThatIsNotThereIsToldWhereItIsNamed) {
   const StudyFiles files;
   EXPECT_THAT([&] { read_study(files.write("study.toml", "title = \"a\"\nbase = \"none.toml\"\n")); },

@@ -151,7 +151,7 @@ TEST(Sweep, FreeScaleIsFittedAndRatesAreCompared) {
   const StudyResult result = sweep(study, quick_run, with_jobs(1));
   EXPECT_NEAR(*result.comparison->scale, 2.0, 1e-12);
   EXPECT_NEAR(*result.comparison->misfit_percent, 0.0, 1e-9);
-  EXPECT_THAT(comparison_csv(result), HasSubstr("\n1,2,,22,22,"));
+  EXPECT_THAT(comparison_csv(result), HasSubstr("\n1,2,all,,22,22,"));
   EXPECT_NEAR(*result.layouts[0].holes[2].difference_percent, 0.0, 1e-9);
 }
 

@@ -97,6 +97,7 @@ TEST(Trade, TurnDownIsOfTheFrequenciesThatFlow) {
   ASSERT_TRUE(lines[0].not_excluded);
   EXPECT_NEAR(lines[0].not_excluded->ratio, 2, 1e-9);
   EXPECT_EQ(lines[0].not_excluded->from, 7);
+  EXPECT_EQ(lines[0].unsound, 0u) << "what stopped flowing is known not to do";
   EXPECT_FALSE(lines[0].slope);
 }
 
@@ -115,6 +116,7 @@ TEST(Trade, TurnDownLeavesOutWhatIsSeriouslyDoubted) {
   ASSERT_EQ(lines.size(), 1u);
   ASSERT_TRUE(lines[0].not_excluded);
   EXPECT_NEAR(lines[0].not_excluded->ratio, 10.0 / 7, 1e-9);
+  EXPECT_EQ(lines[0].unsound, 1u);
 }
 
 TEST(Trade, SlopeIsOfTheTiltsAndEachFrequencyIsALine) {
