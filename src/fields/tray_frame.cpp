@@ -61,7 +61,7 @@ void append_moved(Snapshot& to, const Snapshot& from, std::size_t i, double alon
   using S = Snapshot;
   append(&S::x, &S::y, &S::vx, &S::vy, &S::omega, &S::angle, &S::lot, &S::id, &S::radius, &S::mass, &S::area,
          &S::start_x, &S::start_y, &S::z, &S::vz, &S::omega_x, &S::omega_y, &S::q_w, &S::q_x, &S::q_y, &S::q_z,
-         &S::start_z, &S::volume);
+         &S::start_z, &S::volume, &S::in_tray);
   to.x.back() += along;
   if (to.is_3d()) to.z.back() += across;
 }
@@ -128,6 +128,11 @@ Snapshot with_images(const Snapshot& own, const Periods& periods, double reach) 
 
 std::vector<std::size_t> grains_in_tray(const Snapshot& own, const Vessel& tray) {
   std::vector<std::size_t> inside;
+  if (own.in_tray.size() == own.size()) {
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if (own.in_tray[i] != 0) inside.push_back(i);
+    return inside;
+  }
   const auto within = [](double at, double end) { return at >= 0 && at <= end; };
   for (std::size_t i = 0; i < own.size(); ++i)
     if (within(own.x[i], tray.length) && within(own.y[i], tray.height) &&

@@ -206,19 +206,24 @@ Eigen::Array3i FreeRoom::carried_over(Eigen::Array3i at, const Grid& grid) const
 std::vector<char> FreeRoom::free_cells(const Grid& grid) const {
   constexpr int block = 4;
   std::vector<char> free(static_cast<std::size_t>(grid.cells.cast<std::int64_t>().prod()), 0);
-  const double clear = kept_clear_ * grid.radius;
+  const double clear = kept_clear_ * grid.radius, depth = vessel_.depth.value_or(0);
+  // Of a cut the cells lie in its plane already, across the middle of the vessel.
+  const auto in_vessel = [&](Eigen::Vector3d at) {
+    if (cut_) at.z() = 0.5 * depth;
+    return at;
+  };
   for (int k = 0; k < grid.cells.z(); k += block)
     for (int j = 0; j < grid.cells.y(); j += block)
       for (int i = 0; i < grid.cells.x(); i += block) {
         const Eigen::Array3i first(i, j, k), end = (first + block).min(grid.cells);
         const Eigen::Vector3d middle = 0.5 * (first + end).cast<double>().matrix().cwiseProduct(grid.cell);
         const Eigen::Vector3d half = 0.5 * (end - first).cast<double>().matrix().cwiseProduct(grid.cell);
-        const bool all_free = obstacles_.distance(in_cut(middle)) >= clear + half.norm();
+        const bool all_free = obstacles_.distance(in_vessel(middle)) >= clear + half.norm();
         for (int z = k; z < end.z(); ++z)
           for (int y = j; y < end.y(); ++y)
             for (int x = i; x < end.x(); ++x) {
               const Eigen::Array3i at(x, y, z);
-              const Eigen::Vector3d centre = in_cut(grid.centre(at));
+              const Eigen::Vector3d centre = in_vessel(grid.centre(at));
               const bool inside = is_in_plan(centre, clear) && centre.y() >= clear && is_between_drawn(centre);
               free[grid.index(at)] = inside && (all_free || obstacles_.distance(centre) >= clear) ? 1 : 0;
             }

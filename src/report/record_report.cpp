@@ -292,7 +292,7 @@ std::vector<OutputFile> record_files(const Scene& scene, const Run& run, CsvForm
 }
 
 std::vector<FileText> record_file_texts() {
-  return {file_text("grains_NNN.csv", "of each snapshot: one row per grain, in the tray's frame",
+  return {file_text("grains_NNN.csv", "of each snapshot: one row per grain, in the tray's frame, of a tray that turns steadily that at rest",
                     grains_columns(Space::three_dimensional)),
           file_text("fields_NNN.csv",
                     "of each snapshot: one row per cell that holds a part of a grain, in it or in the snapshot before, "
@@ -300,7 +300,9 @@ std::vector<FileText> record_file_texts() {
                     fields_columns(Space::three_dimensional)),
           file_text("records.csv", "one row per snapshot and lot, and per snapshot one of all lots", records_columns()),
           file_text("profile.csv", "one row per snapshot, layer and lot", profile_columns()),
-          file_text("flow.csv", "one row per hole and tenth of the run, and per hole one of the whole run",
+          file_text("flow.csv",
+                    "one row per hole and tenth of the run, or of the time until the tray was empty, and per hole one "
+                    "of all of it",
                     flow_columns())};
 }
 

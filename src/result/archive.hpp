@@ -72,7 +72,8 @@ template <class Archive>
 void serialize(Archive& archive, Snapshot& s) {
   archive(s.time, s.tray_x, s.tray_y, s.tray_angle, s.tray_vx, s.tray_vy, s.tray_spin, s.x, s.y, s.vx, s.vy, s.omega,
           s.angle, s.lot, s.id, s.radius, s.mass, s.area, s.start_x, s.start_y);
-  archive(s.tray_z, s.tray_vz, s.z, s.vz, s.omega_x, s.omega_y, s.q_w, s.q_x, s.q_y, s.q_z, s.start_z, s.volume);
+  archive(s.tray_z, s.tray_vz, s.z, s.vz, s.omega_x, s.omega_y, s.q_w, s.q_x, s.q_y, s.q_z, s.start_z, s.volume,
+          s.in_tray);
 }
 
 template <class Archive>

@@ -29,6 +29,8 @@ struct Snapshot {
   std::vector<double> q_w{}, q_x{}, q_y{}, q_z{};  // how a clump lies, as Grains has it; empty without clumps
   std::vector<double> start_z{};                   // m
   std::vector<double> volume{};                    // m3, of the grain itself
+  std::vector<char>
+      in_tray{};  // whether it is within the tray as that stands, and in no hopper there; empty: not known
 
   std::size_t size() const { return x.size(); }
   bool is_3d() const { return !z.empty(); }

@@ -130,7 +130,7 @@ void serialize(Archive& archive, DrawnSeed& s) {
 }
 template <class Archive>
 void serialize(Archive& archive, FeederState::Shower& s) {
-  archive(s.random, s.arrived, s.next);
+  archive(s.random, s.arrived, s.withheld, s.most_waiting, s.most_waiting_at, s.next);
 }
 template <class Archive>
 void serialize(Archive& archive, FeederState& s) {

@@ -87,6 +87,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
     CounterState::Passage& passage = state_.passages[i];
     if (height >= 0) {
       state_.below[i] = 0;
+      if (!by_line) passage.hole = 0;  // it has come back
       continue;
     }
     if (passage.counted) continue;
@@ -105,8 +106,10 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
     };
     // Back along the present velocity to the moment when the centre was `level` high.
     const auto since = [&](double level) { return speed_up < 0 ? (height - level) / speed_up : 0.0; };
-    if (!state_.below[i]) {
-      state_.below[i] = 1;
+    const bool has_passed = by_line && passage.hole > 0;  // before the tray tipped over
+    const bool is_new = !state_.below[i] && !has_passed;
+    state_.below[i] = 1;
+    if (is_new) {
       const FloorPoint place = place_before(since(0));
       passage.x = place.x, passage.z = place.z;
       passage.hole = hole_at(place, by_line);

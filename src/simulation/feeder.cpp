@@ -232,11 +232,15 @@ int Feeder::rain(std::size_t v, Grains& grains, const Walls& walls, double time)
   const Vessel& vessel = walls.vessels()[v];
   const Rain& rain = *vessel.rain;
   const Pose frame = steady_frame(vessel, walls.poses()[v]);
-  if (!stands(vessel, frame)) return 0;
+  FeederState::Shower& shower = state_.showers[v];
+  if (!stands(vessel, frame)) {  // what is due meanwhile does not come
+    const std::int64_t due = arrivals(rain, time);
+    shower.withheld += due - shower.arrived, shower.arrived = due;
+    return 0;
+  }
   const double over = rain.height - vessel.height;
   const Eigen::Vector3d aside =
       over > 0 ? aside_while_rising(vessel, frame, over) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  FeederState::Shower& shower = state_.showers[v];
   const std::int64_t waiting = arrivals(rain, time) - shower.arrived;
   int added = 0;
   for (std::int64_t k = 0; k < waiting; ++k) {
@@ -259,6 +263,7 @@ int Feeder::rain(std::size_t v, Grains& grains, const Walls& walls, double time)
     ++shower.arrived;
     ++added;
   }
+  if (waiting - added > shower.most_waiting) shower.most_waiting = waiting - added, shower.most_waiting_at = time;
   return added;
 }
 
@@ -269,10 +274,24 @@ std::vector<std::string> Feeder::warnings(double time) const {
   for (std::size_t v = 0; v < state_.showers.size(); ++v) {
     const std::optional<Rain>& rain = model_.vessels[v].rain;
     if (!rain) continue;
-    const std::int64_t due = arrivals(*rain, time), waiting = due - state_.showers[v].arrived;
-    if (waiting > 1 && static_cast<double>(waiting) > noted_fraction * static_cast<double>(due))
+    const FeederState::Shower& shower = state_.showers[v];
+    if (shower.withheld > 0)
+      warnings.push_back(fmt::format("{}.rain: {} of {} seeds did not come, as the {} was tipped over",
+                                     model_.vessels[v].name, shower.withheld, arrivals(*rain, time),
+                                     model_.vessels[v].name));
+    const auto is_much = [due = arrivals(*rain, time)](std::int64_t waiting) {
+      return waiting > 1 && static_cast<double>(waiting) > noted_fraction * static_cast<double>(due);
+    };
+    const std::int64_t waiting = arrivals(*rain, time) - shower.arrived;
+    if (is_much(waiting))
       warnings.push_back(fmt::format("{}.rain falls behind: {} of {} seeds still wait at {:.4g} s, for want of room{}",
-                                     model_.vessels[v].name, waiting, due, time, places_.unseen_ways(v)));
+                                     model_.vessels[v].name, waiting, arrivals(*rain, time), time,
+                                     places_.unseen_ways(v)));
+    else if (is_much(shower.most_waiting))
+      warnings.push_back(
+          fmt::format("{}.rain falls behind: at {:.4g} s {} of {} seeds waited for want of room, and they came later{}",
+                      model_.vessels[v].name, shower.most_waiting_at, shower.most_waiting,
+                      arrivals(*rain, shower.most_waiting_at), places_.unseen_ways(v)));
   }
   return warnings;
 }

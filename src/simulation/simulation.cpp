@@ -71,7 +71,7 @@ void Simulation::begin() {
   execution_.profile().lap(Phase::start);
   if (!recorder_) return;
   recorder_->note_new(state_.grains);
-  recorder_->record(state_.grains, field_.walls(), state_.time, state_.run.snapshots);
+  record();
 }
 
 bool Simulation::step() {
@@ -98,8 +98,7 @@ bool Simulation::step() {
   if (is_due(steps_per_energy_account) || at_end()) guard_.watch_energy(s_, run.energy);
   profile.lap(Phase::housekeeping);
   if (state_.guard.stop_reason) return false;  // before anything of it is recorded
-  if (recorder_ && recorder_->is_due(state_.time))
-    recorder_->record(state_.grains, field_.walls(), state_.time, run.snapshots);
+  if (recorder_ && recorder_->is_due(state_.time)) record();
   profile.lap(Phase::recording);
   for (std::size_t k = 0; k < watchers_.size(); ++k)  // a look may add watchers
     if (is_due(watchers_[k].every)) std::function(watchers_[k].look)(*this);
@@ -295,14 +294,24 @@ void Simulation::feed(bool top_up, bool rain) {
   add_to_integration(s_);
 }
 
-std::int64_t Simulation::inside_tray(std::int64_t most) const {
+bool Simulation::is_in_tray(std::size_t i) const {
   const Walls& walls = field_.walls();
+  return !counter_.is_counted(i) && is_inside(model_.scene.tray, walls.poses().front(), state_.grains, i) &&
+         feeder_.places().counts_in(state_.grains.place(i), 0, walls);
+}
+
+std::int64_t Simulation::inside_tray(std::int64_t most) const {
   std::int64_t inside = 0;
-  for (std::size_t i = 0; i < state_.grains.size() && inside < most; ++i)
-    if (!counter_.is_counted(i) && is_inside(model_.scene.tray, walls.poses().front(), state_.grains, i) &&
-        feeder_.places().counts_in(state_.grains.place(i), 0, walls))
-      ++inside;
+  for (std::size_t i = 0; i < state_.grains.size() && inside < most; ++i) inside += is_in_tray(i) ? 1 : 0;
   return inside;
+}
+
+void Simulation::record() {
+  std::vector<Snapshot>& snapshots = state_.run.snapshots;
+  const std::size_t before = snapshots.size();
+  recorder_->record(state_.grains, field_.walls(), state_.time, snapshots);
+  for (std::size_t k = before; k < snapshots.size(); ++k)
+    for (std::size_t i = 0; i < state_.grains.size(); ++i) snapshots[k].in_tray.push_back(is_in_tray(i) ? 1 : 0);
 }
 
 void Simulation::note_what_tray_holds() {
@@ -313,8 +322,11 @@ void Simulation::note_what_tray_holds() {
 
 void Simulation::end_after_pause() {
   if (!model_.scene.run.end_after_pause) return;
-  double since = 0;
-  for (const Hole& hole : model_.scene.tray.holes) since = std::max(since, hole.open_at);
+  double since = 0;  // s, when all is open and under way
+  for (const Vessel& vessel : model_.vessels) {
+    for (const Hole& hole : vessel.holes) since = std::max(since, hole.open_at);
+    if (vessel.rain) since = std::max(since, vessel.rain->start);
+  }
   if (!state_.run.events.empty()) since = std::max(since, state_.run.events.back().time);  // to within a step the last
   if (state_.time - since < *model_.scene.run.end_after_pause) return;
   state_.run.end_reason = fmt::format("no grain left for {:g} s; {} are still inside",

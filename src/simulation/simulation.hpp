@@ -96,6 +96,9 @@ class Simulation {
   bool is_free(std::size_t wall) const;
   void feed(bool top_up, bool rain);
   /// Counted up to so many.
+  bool is_in_tray(std::size_t i) const;
+  /// Takes the snapshots that are due.
+  void record();
   std::int64_t inside_tray(std::int64_t most = std::numeric_limits<std::int64_t>::max()) const;
   void note_what_tray_holds();
   void end_after_pause();

@@ -65,7 +65,10 @@ struct FeederState {
   /// The rain into one vessel so far.
   struct Shower {
     Random random;
-    std::int64_t arrived = 0;
+    std::int64_t arrived = 0;   // of those due
+    std::int64_t withheld = 0;  // of these, while the vessel was tipped over
+    std::int64_t most_waiting = 0;
+    double most_waiting_at = 0;       // s
     std::optional<DrawnSeed> next{};  // that waits; none: not drawn
   };
   Random random;

@@ -130,6 +130,26 @@ TEST(Room3d, OfADrawnConeLiesWithinIt) {
 }
 
 /// A slit of 3 mm, and seeds of 2 and of 4 mm.
+/// A disc over the middle of a round vessel, and the slopes of a cone: about the vessel's own axis as beside it.
+TEST(Room3d, OfARoundVesselGoesUnderWhatIsTurnedAboutItsAxis) {
+  Vessel v;
+  v.name = "tray", v.plan = Plan::round;
+  v.length = 0.1, v.height = 0.06, v.depth = 0.1;
+  for (const double beside : {0.0, 1e-6}) {
+    const Eigen::Vector2d axis(0.05 + beside, 0.05);
+    v.pieces = {{.a = {0, 0.03}, .b = {0.03, 0.03}, .about = axis}};
+    const FreeRoom under_a_disc(v, Space::three_dimensional, radius);
+    for (const Eigen::Vector3d& at : {Eigen::Vector3d(0.05, 0.01, 0.05), Eigen::Vector3d(0.06, 0.01, 0.04)})
+      EXPECT_TRUE(under_a_disc.holds(at)) << at.transpose() << ", beside by " << beside;
+    v.pieces[0].b.x() = 0.05;
+    EXPECT_FALSE(FreeRoom(v, Space::three_dimensional, radius).holds({0.05, 0.01, 0.05})) << "from wall to wall";
+    v.pieces = {{.a = {0.01, 0.01}, .b = {0.04, 0.04}, .about = axis}};
+    const FreeRoom over_a_cone(v, Space::three_dimensional, radius);
+    EXPECT_TRUE(over_a_cone.holds({0.05, 0.03, 0.06}));
+    EXPECT_TRUE(over_a_cone.holds({0.085, 0.01, 0.05})) << "by way of the gap at the wall";
+  }
+}
+
 TEST_P(Room, IsOfEachWidthOfSeed) {
   Vessel v = box();
   v.pieces = {{.a = {0, 0.03}, .b = {0.0485, 0.03}}, {.a = {0.0515, 0.03}, .b = {0.1, 0.03}}};

@@ -363,5 +363,24 @@ TEST(Counter, APauseEndsTheRunWhereThatIsAsked) {
   EXPECT_NEAR(opened.end_time, opened.events.back().time + 0.2, 2e-3);
 }
 
+TEST(Counter, APauseBeginsWhenHopperAndRainHaveBegun) {
+  Scene scene;
+  scene.lots = {{"grain", 6e-3, 2e-4, Shape::ball, 1.0}};
+  scene.contact.shell_compression = 1e-3;
+  scene.tray.name = "tray";
+  scene.tray.length = 0.1;
+  scene.tray.height = 0.05;
+  scene.run.duration = 0.6;
+  scene.run.end_after_pause = 0.1;
+  Scene with_hopper = scene;
+  Vessel& hopper = with_hopper.hopper.emplace(scene.tray);
+  hopper.name = "hopper", hopper.origin.y() = 0.06;
+  hopper.fill = Fill{5, Packing::poured, 1e-3, false};
+  hopper.holes = {{0.05, 0.03, 0.3}};
+  EXPECT_NEAR(simulate(with_hopper).end_time, 0.4, 2e-3);
+  scene.tray.rain = Rain{.rate = 10, .from = 0, .to = 0.1, .height = 0.04, .start = 0.2};
+  EXPECT_NEAR(simulate(scene).end_time, 0.3, 2e-3);
+}
+
 }  // namespace
 }  // namespace vibrosow

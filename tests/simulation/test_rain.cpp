@@ -1,4 +1,5 @@
 // Seeds that rain into a vessel.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,6 +41,18 @@ TEST(Rain, BringsRateTimesTime) {
   EXPECT_EQ(run.balance.inside, 40);
   EXPECT_EQ(run.status, RunStatus::finished) << run.stop_reason;
   expect_balanced(run.balance);
+}
+
+TEST(Rain, ThatFellBehindForAWhileIsTold) {
+  Scene scene = wet();
+  scene.tray.rain->stop = 0.3;
+  EXPECT_TRUE(simulate(scene).warnings.empty());
+  scene.tray.rain->from = 0.09, scene.tray.rain->to = 0.1;  // hardly as wide as a seed
+  const vibrosow::Run run = simulate(scene);
+  EXPECT_EQ(run.balance.put_in, 60) << "after it had stopped";
+  ASSERT_EQ(run.warnings.size(), 1u);
+  EXPECT_THAT(run.warnings[0].text, testing::MatchesRegex("tray.rain falls behind: at 0.* s [0-9]+ of [0-9]+ seeds "
+                                                          "waited for want of room, and they came later.*"));
 }
 
 TEST(Rain, ThroughTheHolesTheBalanceHolds) {

@@ -46,6 +46,20 @@ TEST(Recorder, TakesTheFirstStepAtOrAfterEachTime) {
   EXPECT_EQ(s.tray_vx, vessel_velocity(bench.scene.tray, s.time).velocity.x());
 }
 
+/// A hopper reaches into the tray.
+TEST(Recorder, KnowsWhatLiesInTheTray) {
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  Vessel& hopper = bench.scene.hopper.emplace(bench.scene.tray);
+  hopper.name = "hopper", hopper.motion.reset(), hopper.holes.clear();
+  hopper.origin = {0.3, 0.2}, hopper.length = 0.4;
+  bench.scene.record = Record{{0}, 0.01};
+  bench.place(0.1, Bench::radius).place(0.5, 0.2 + Bench::radius).place(0.5, Bench::radius);
+  const std::vector<Snapshot> taken = bench.start(1e-4).result().snapshots;
+  ASSERT_EQ(taken.size(), 1u);
+  EXPECT_EQ(taken[0].in_tray, (std::vector<char>{1, 0, 1}));
+}
+
 TEST(Recorder, KnowsWhereFedGrainsWerePutInAndWhoHasLeft) {
   Bench bench;
   bench.gravity = {0, -standard_gravity};
