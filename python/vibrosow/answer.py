@@ -35,7 +35,10 @@ class Answer:
     @cached_property
     def doubts(self):
         """What speaks against the runs of the layouts that the answer names, a row each; empty where nothing does."""
-        return pandas.DataFrame(self.info.get("doubts", []), columns=DOUBTS)
+        doubts = self.info.get("doubts")
+        if doubts is None and (self.folder / "report.json").exists():  # of commands whose page alone has them, without kind and runs
+            doubts = read_json(self.folder / "report.json").get("remarks", [])
+        return pandas.DataFrame(doubts or [], columns=DOUBTS)
 
     def table(self, name):
         """Another CSV file of the folder, such as "posterior.csv" or "accuracy_runs.csv"; None where there is none."""

@@ -82,10 +82,10 @@ AccuracyResult accuracy_of(const std::vector<AccuracySetting>& settings, const s
     row.refused = refused[i];
     take_runs(row, runs, i);
   }
-  result.fit = ErrorFit::of(settings, runs);
+  if (part_of_one_value(settings, runs).empty()) result.fit = ErrorFit::of(settings, runs);
   if (result.fit)
     for (std::size_t i = 0; i < settings.size(); ++i)
-      if (result.rows[i].mass_rate) result.rows[i].fitted = result.fit->error(i);
+      if (result.rows[i].mass_rate && result.fit->tells(i)) result.rows[i].fitted = result.fit->error(i);
   result.runs = std::move(runs);
   compare_with_finest(result);
   return result;

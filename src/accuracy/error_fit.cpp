@@ -121,7 +121,7 @@ void ErrorFit::choose_terms(const std::vector<AccuracyRun>& runs) {
   if (softnesses.size() >= softnesses_for_two_terms)
     wanted.push_back({.source = ErrorSource::softness, .overlap = true});
   wanted.push_back({.source = ErrorSource::slip_speed});
-  for (const Integrator integrator : {Integrator::velocity_verlet, Integrator::rk2_midpoint, Integrator::gear5})
+  for (const auto& [integrator, steps] : steps_)
     wanted.push_back({.source = ErrorSource::step, .integrator = integrator});
 
   Eigen::MatrixXd columns = Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(observed.size()), 1);
@@ -140,13 +140,42 @@ void ErrorFit::choose_terms(const std::vector<AccuracyRun>& runs) {
   }
 }
 
+namespace {
+
+std::map<Integrator, std::set<double>> steps_by_scheme(const std::vector<AccuracySetting>& settings,
+                                                       const std::vector<AccuracyRun>& runs) {
+  std::map<Integrator, std::set<double>> steps;
+  for (const AccuracyRun& run : runs)
+    if (run.mass_rate) steps[settings[run.setting].integrator].insert(settings[run.setting].steps_per_contact);
+  return steps;
+}
+
+}  // namespace
+
+std::string_view part_of_one_value(const std::vector<AccuracySetting>& settings, const std::vector<AccuracyRun>& runs) {
+  std::set<double> softnesses;
+  for (const AccuracyRun& run : runs)
+    if (run.mass_rate) softnesses.insert(settings[run.setting].contact_duration);
+  if (softnesses.empty()) return "";
+  if (softnesses.size() < 2) return "softness";
+  const auto steps = steps_by_scheme(settings, runs);
+  return std::ranges::all_of(steps, [](const auto& one) { return one.second.size() < 2; }) ? "number of steps a contact"
+                                                                                           : "";
+}
+
+bool ErrorFit::tells(std::size_t setting) const {
+  return steps_.empty() || steps_.contains(settings_[setting].integrator);
+}
+
 std::optional<ErrorFit> ErrorFit::of(const std::vector<AccuracySetting>& settings,
                                      const std::vector<AccuracyRun>& runs) {
-  std::vector<AccuracyRun> observed;
-  std::ranges::copy_if(runs, std::back_inserter(observed),
-                       [](const AccuracyRun& run) { return run.mass_rate.has_value(); });
   ErrorFit fit;
   fit.settings_ = settings;
+  fit.steps_ = steps_by_scheme(settings, runs);
+  std::erase_if(fit.steps_, [](const auto& one) { return one.second.size() < 2; });
+  std::vector<AccuracyRun> observed;
+  std::ranges::copy_if(runs, std::back_inserter(observed),
+                       [&](const AccuracyRun& run) { return run.mass_rate && fit.tells(run.setting); });
   fit.choose_terms(observed);
   const auto terms = 1 + static_cast<Eigen::Index>(fit.terms_.size());
   if (static_cast<Eigen::Index>(observed.size()) < terms + 2) return std::nullopt;
@@ -250,7 +279,6 @@ std::vector<MainEffect> ErrorFit::effects() const {
   };
   const auto [stiff, soft] = extremes(&AccuracySetting::contact_duration);
   const auto [slow, fast] = extremes(&AccuracySetting::slip_speed);
-  const auto [few, many] = extremes(&AccuracySetting::steps_per_contact);
   const AccuracySetting base = settings_.front();
   std::vector<MainEffect> effects;
   std::optional<AccuracySetting> first_scheme;
@@ -267,7 +295,8 @@ std::vector<MainEffect> ErrorFit::effects() const {
       case ErrorSource::step:
       case ErrorSource::scheme:
         from.integrator = to.integrator = term.integrator;
-        from.steps_per_contact = many.steps_per_contact, to.steps_per_contact = few.steps_per_contact;
+        from.steps_per_contact = *steps_.at(term.integrator).rbegin();
+        to.steps_per_contact = *steps_.at(term.integrator).begin();
         if (first_scheme)
           effects.push_back(effect(ErrorSource::scheme, *first_scheme, to));
         else

@@ -2,7 +2,10 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <vector>
 
 #include "accuracy/accuracy_settings.hpp"
@@ -33,13 +36,16 @@ struct MainEffect {
 /// where softness acts through the contact duration and, with four softnesses or more, the overlap at rest too. So the
 /// limit is that of step 0, rigid grains and Coulomb's friction, the same for all schemes. The step's error is taken to
 /// fall with its first power, though all schemes are of a higher order on smooth motion: contacts begin and end within
-/// a step, and the first power says most of what is left at the finest step. A part that was not varied has no term.
+/// a step, and the first power says most of what is left at the finest step. A part that was not varied has no term
+/// (`part_of_one_value`); of a scheme with one number of steps beside others with several the runs are left out.
 /// However equal the runs are, a count of n seeds leaves 1 / (n sqrt(12)) of the rate open, as any rounding does.
 class ErrorFit {
  public:
   /// From the runs that have a rate. None where they are not at least two more than the terms, or nothing flows.
   static std::optional<ErrorFit> of(const std::vector<AccuracySetting>& settings, const std::vector<AccuracyRun>& runs);
 
+  /// Whether the error of a setting is known: its scheme has two numbers of steps, or none has.
+  bool tells(std::size_t setting) const;
   /// kg/s, at step 0, with the half width of its 95 % interval.
   const MeanWithInterval& limit() const { return limit_; }
   /// Systematic error of a setting against the limit. Its band is simultaneous: 95 % for all settings at once (maximum
@@ -83,6 +89,7 @@ class ErrorFit {
   double simultaneous_factor() const;
 
   std::vector<AccuracySetting> settings_;
+  std::map<Integrator, std::set<double>> steps_;  // a contact, of the runs of each scheme
   std::vector<Term> terms_;
   Eigen::VectorXd coefficients_;  // kg/s: the limit, then of each term
   Eigen::MatrixXd covariance_;    // over the variance of a run
@@ -94,5 +101,9 @@ class ErrorFit {
   double simultaneous_ = 0;
   std::optional<double> lack_of_fit_;
 };
+
+/// What all runs with a rate have one value of, so that what it errs by is not known: "softness" or, of every scheme,
+/// "number of steps a contact"; empty: neither, or no run has a rate.
+std::string_view part_of_one_value(const std::vector<AccuracySetting>& settings, const std::vector<AccuracyRun>& runs);
 
 }  // namespace vibrosow

@@ -1,5 +1,7 @@
 #include "accuracy/promise.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -82,7 +84,7 @@ class Chooser {
   /// Without replicates, so cost and half width are of one run.
   std::optional<Offer> single(std::size_t setting, double window) const {
     const std::optional<Cost> one = cost_of_run(setting);
-    if (!one) return std::nullopt;
+    if (!one || !promise_.fit->tells(setting)) return std::nullopt;
     const double longer = (choices_.lead + window * choices_.window) / (choices_.lead + choices_.window);
     return Offer{.setting = setting,
                  .window = window,
@@ -202,8 +204,11 @@ bool interrupted(const std::vector<AccuracyRun>& runs) {
   return std::ranges::any_of(runs, [](const AccuracyRun& run) { return run.refused == interrupted_run; });
 }
 
-std::string why_no_fit(const std::vector<AccuracyRun>& pilots) {
+std::string why_no_fit(const Promise& made) {
+  const std::vector<AccuracyRun>& pilots = made.runs;
   if (interrupted(pilots)) return interrupted_run;
+  if (const std::string_view part = part_of_one_value(made.settings, pilots); !part.empty())
+    return fmt::format("all pilots have one {}, so what it errs by is not known; give two or more", part);
   const auto stood_still = [](const AccuracyRun& run) { return run.mass_rate == 0.0; };
   return std::ranges::all_of(pilots, stood_still) ? "nothing flows" : "too few of the pilots have a rate";
 }
@@ -212,7 +217,8 @@ void make_pilots(Promise& made, const std::vector<SettingRuns>& pilots, const Ru
   add(made.runs, run(pilots));
   made.pilots = made.runs.size();
   made.pilot_cpu_time = cpu_time_of(made.runs);
-  made.fit = interrupted(made.runs) ? std::nullopt : ErrorFit::of(made.settings, made.runs);
+  const bool can_tell = !interrupted(made.runs) && part_of_one_value(made.settings, made.runs).empty();
+  made.fit = can_tell ? ErrorFit::of(made.settings, made.runs) : std::nullopt;
 }
 
 }  // namespace
@@ -237,7 +243,7 @@ Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const Ru
     made.offer = best_offer(chooser, goal, made.pilot_cpu_time);
   }
   if (!made.fit) {
-    made.refused = why_no_fit(made.runs);
+    made.refused = why_no_fit(made);
     return made;
   }
   if (goal.within_percent) made.finest = chooser.within(finest(made.settings), 1, *goal.within_percent);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "input/key_units.hpp"
 #include "input/read_contact.hpp"
@@ -73,6 +74,22 @@ bool takes_contacts_of_crops(const CalibrationDesign& design) {
          crops_have_contacts(scene.lots);
 }
 
+/// How many of the values that were held out lie outside their intervals, and how many there are.
+std::pair<int, int> held_out_misses(const Calibration& of) {
+  int outside = 0, held_out = 0;
+  for (const PredictedValue& value : of.predictions) {
+    if (!value.held_out) continue;
+    ++held_out;
+    outside += value.measured < value.low || value.measured > value.high ? 1 : 0;
+  }
+  return {outside, held_out};
+}
+
+/// At least two, and more than half: those of a curve go together, so the binomial of 5 % would find too many.
+bool missed_too_often(int outside, int held_out) {
+  return outside >= 2 && 2 * outside > held_out;
+}
+
 /// Of the fit itself, and of each value.
 std::vector<CountedDoubt> doubts_of_fit(const CalibrationAnswer& answer) {
   using enum DoubtKind;
@@ -110,6 +127,10 @@ std::vector<CountedDoubt> doubts_of_fit(const CalibrationAnswer& answer) {
     add(few_points, fmt::format("the intervals rest on {:.0f} effective points only", of.posterior.effective_points));
   if (const std::size_t left_out = answer.runs.size() - answer.runs_used; left_out > 0)
     add(runs_left_out, fmt::format("{} of {} runs were left out", left_out, answer.runs.size()));
+  if (const auto [outside, held_out] = held_out_misses(of); missed_too_often(outside, held_out))
+    add(misfit, fmt::format("{} of {} values that were held out lie outside the intervals in which 95 % of such should "
+                            "lie: the fit does not predict what it was not fitted to",
+                            outside, held_out));
   if (!of.held_out_rms) add(nothing_held_out, "nothing was held out, so that no prediction was tested");
   return doubts;
 }

@@ -106,6 +106,9 @@ CalibrationDesign design_calibration(const CalibrationTask& task, const std::sha
   if (is_curve(task.measured.table.quantity) && task.measured.scale == MeasuredScale::free)
     throw InputError(
         fmt::format("{}: --scale free goes with rates; of curves expected none or depth", task.measured.file.string()));
+  if (task.measured.table.quantity == MeasuredQuantity::fraction_curve && task.measured.scale != MeasuredScale::none)
+    throw InputError(fmt::format("{}: discharged_percent needs no scale; only --scale none is allowed",
+                                 task.measured.file.string()));
   CalibrationDesign design;
   design.conditions = conditions_of(task.measured.table);
   design.points = drawn_points(task, counts_for(task, design.conditions.size()));

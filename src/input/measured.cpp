@@ -46,7 +46,8 @@ constexpr std::array quantity_columns = {
 };
 constexpr std::string_view one_quantity_needed =
     "exactly one quantity is needed: caught_g or caught_seeds with duration_s; rate_g_per_s; seeds_per_s; or "
-    "time_s with mass_g (remaining_g of a balance under the vessel, gross_g of one that was not tared), seeds or "
+    "time_s with mass_g (remaining_g of a balance under the vessel, gross_g of one under what catches, not tared), "
+    "seeds or "
     "discharged_percent";
 
 /// Of what is not zero, in the unit of its column: beyond any seeder, and within them rates and misfits stay finite.
@@ -252,6 +253,8 @@ class Reader {
     }
     double largest = 0;
     for (const MeanWithInterval& value : series.values) largest = std::max(largest, value.mean);
+    if (largest == 0 && quantity_->balance == Balance::not_tared && series.values.back().mean < 0)
+      fail(one.line, quantity_->name, "falls; a balance under the vessel has the column remaining_g");
     if (largest == 0)
       fail(one.line, quantity_->name,
            is_curve(quantity_->quantity) ? "the curve never leaves zero: it has no misfit"
@@ -324,7 +327,7 @@ class Reader {
         line, quantity_->name,
         fmt::format("begins with {} at {:g} s; a curve is of what has left since its time zero.{}", stated(first), time,
                     quantity_->quantity == MeasuredQuantity::mass_curve
-                        ? " A balance that was not tared has the column gross_g"
+                        ? " A balance under what catches that was not tared has the column gross_g"
                         : ""));
   }
 

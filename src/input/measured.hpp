@@ -56,11 +56,11 @@ struct MeasuredTable {
 /// `repeat` and `note` may follow (`repeat` tells apart the fills of a balance that shows something else than what has
 /// left, `note` is for the reader of the file), and exactly one
 /// quantity must: caught_g or caught_seeds with duration_s; rate_g_per_s; seeds_per_s; or time_s with mass_g,
-/// seeds or discharged_percent; instead of mass_g remaining_g, of a balance under the vessel, or gross_g, of one that
-/// was not tared: what has left is reckoned from their first reading. Rows alike in conditions, hole, lot and time are
-/// repeats. Throws InputError "FILE:LINE: COLUMN: ..." for anything else, an unknown column (with the nearest known
-/// one), a value that is not a finite number, negative, over 100 % or beyond any seeder, a rate of zero, which has no
-/// relative misfit, and a curve that falls or does not begin near nothing.
+/// seeds or discharged_percent; instead of mass_g remaining_g, of a balance under the vessel, or gross_g, of one under
+/// what catches that was not tared: what has left is reckoned from their first reading. Rows alike in conditions, hole,
+/// lot and time are repeats. Throws InputError "FILE:LINE: COLUMN: ..." for anything else, an unknown column (with the
+/// nearest known one), a value that is not a finite number, negative, over 100 % or beyond any seeder, a rate of zero,
+/// which has no relative misfit, and a curve that falls or does not begin near nothing.
 MeasuredTable read_measured(const CsvLines& csv);
 
 }  // namespace vibrosow

@@ -62,6 +62,11 @@ std::optional<MeanWithInterval> in_interval(const KnownMean& known) {
   return MeanWithInterval{known.mean, student_t_95(degrees) * std::sqrt(known.error_squared())};
 }
 
+/// Whether a goal is the metric that rates are shown as where none is wanted.
+bool is_rate(const FrontGoal* goal) {
+  return goal->metric != nullptr && goal->metric->metric == rate_metric(std::nullopt).name;
+}
+
 }  // namespace
 
 bool leads(const FrontLayout& layout) {
@@ -285,6 +290,8 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
   for (const Doubt& doubt : expected.doubts) result.doubts.push_back({doubt.kind, 0, 0, doubt.text});
   if (options_.rate)
     result.rate = in_interval(known[options_.goals.size()]);
+  else if (const auto goal = std::ranges::find_if(options_.goals, is_rate); goal != options_.goals.end())
+    result.rate = result.goals[static_cast<std::size_t>(goal - options_.goals.begin())];
   else if (!rates.empty())
     result.rate = mean_with_interval(rates);
   return result;

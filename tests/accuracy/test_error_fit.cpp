@@ -114,6 +114,30 @@ TEST(ErrorFit, LongerWindowsWeighAsTheyAreLong) {
   EXPECT_NEAR(fit.scatter_percent(), 100 * std::sqrt(squares / 3) / mean, 1e-9) << "of a run over the scene's window";
 }
 
+TEST(ErrorFit, WhatHasOneValueIsNamed) {
+  const std::vector<AccuracySetting> settings = {MadeUpTray::setting(1e-4, 20), MadeUpTray::setting(1e-4, 40),
+                                                 MadeUpTray::setting(4e-4, 20)};
+  const AccuracyRun first = accuracy_run(0, 1, 1), finer = accuracy_run(1, 1, 1), softer = accuracy_run(2, 1, 1);
+  EXPECT_EQ(part_of_one_value(settings, {first, finer}), "softness");
+  EXPECT_EQ(part_of_one_value(settings, {first, softer}), "number of steps a contact");
+  EXPECT_EQ(part_of_one_value(settings, {first, finer, softer}), "");
+  EXPECT_EQ(part_of_one_value(settings, {}), "");
+}
+
+/// Of a scheme with one number of steps nothing is known, beside one with two.
+TEST(ErrorFit, ASchemeOfOneNumberOfStepsIsLeftOut) {
+  std::vector<AccuracySetting> settings = {MadeUpTray::setting(1e-4, 20), MadeUpTray::setting(1e-4, 40),
+                                           MadeUpTray::setting(4e-4, 20), MadeUpTray::setting(1e-4, 40)};
+  settings[3].integrator = Integrator::rk2_midpoint;
+  std::vector<AccuracyRun> runs;
+  for (std::size_t setting = 0; setting < 4; ++setting)
+    for (int k = 0; k < 4; ++k) runs.push_back(accuracy_run(setting, 1, setting == 3 ? 5 : 1 + 0.01 * k));
+  const ErrorFit fit = *ErrorFit::of(settings, runs);
+  EXPECT_TRUE(fit.tells(0));
+  EXPECT_FALSE(fit.tells(3));
+  EXPECT_NEAR(fit.limit().mean, 1.015, 1e-9) << "without its runs";
+}
+
 /// Rates at 20 and 40 steps a contact, ten times each: rate = limit + slope / steps.
 class TwoSteps : public testing::Test {
  protected:

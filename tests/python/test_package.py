@@ -526,6 +526,11 @@ class Answers(Case):
         self.assertEqual(warned.runs, warned.of_runs)
         self.assertTrue(warned.layouts)
         self.assertIsNone(decision.table("posterior.csv"))
+        run_program("accuracy", "wheat-tray", *soft, "--steps-per-contact", "12,24", "--shell-compression", "0.002,0.004", "--replicates", "1",
+                    "--out", self.folder / "accuracy")
+        of_settings = vibrosow.open(self.folder / "accuracy").doubts
+        self.assertTrue(of_settings[of_settings.text.str.contains("the guard warned")].serious.all())
+        self.assertTrue(of_settings.text.str.contains("in 2D").any())
 
 
 class Shipped(Case):
