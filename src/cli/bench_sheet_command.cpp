@@ -46,7 +46,9 @@ BenchAsked asked_of(const BenchSheetOptions& command, const std::filesystem::pat
 
 /// With the same keys and changes as this page was made for.
 std::string calibrate_command(const BenchSheetOptions& command, const BenchRuns& bench) {
-  std::string text = fmt::format("vibrosow calibrate {} bench.csv", command.common.file);
+  const std::filesystem::path out = command.common.out, file = command.common.file;
+  const std::string table = ((out.empty() ? "out" / file.stem() : out) / "bench.csv").string();
+  std::string text = fmt::format("vibrosow calibrate {} \"{}\"", command.common.file, table);
   for (const std::string& fit : command.fits) text += fmt::format(" --fit \"{}\"", fit);
   for (const std::string& set : command.common.sets) text += fmt::format(" --set \"{}\"", set);
   return text + (bench.is_draft ? " --set accuracy=draft" : "");
