@@ -44,11 +44,14 @@ BenchAsked asked_of(const BenchSheetOptions& command, const std::filesystem::pat
   return asked;
 }
 
+OutputFolder folder_of(const BenchSheetOptions& command) {
+  return command.common.output_folder("bench-sheet", bench_file_texts(), "-bench");
+}
+
 /// With the same keys and changes as this page was made for.
 std::string calibrate_command(const BenchSheetOptions& command, const BenchRuns& bench) {
-  const std::filesystem::path out = command.common.out, file = command.common.file;
-  const std::string table = ((out.empty() ? "out" / file.stem() : out) / "bench.csv").string();
-  std::string text = fmt::format("vibrosow calibrate {} \"{}\"", command.common.file, table);
+  const std::filesystem::path table = folder_of(command).path() / "bench.csv";
+  std::string text = fmt::format("vibrosow calibrate {} \"{}\"", command.common.file, table.string());
   for (const std::string& fit : command.fits) text += fmt::format(" --fit \"{}\"", fit);
   for (const std::string& set : command.common.sets) text += fmt::format(" --set \"{}\"", set);
   return text + (bench.is_draft ? " --set accuracy=draft" : "");
@@ -91,7 +94,7 @@ int run_bench_sheet(const BenchSheetOptions& command) {
   limits.handling = time_option("--handling", command.handling);
   const InputFile file = input_file(options.file, FileKind::seeder);
   const BenchRuns bench = affordable_bench(asked_of(command, file.path), file.files);
-  const OutputFolder folder = options.output_folder("bench-sheet", bench_file_texts(), "-bench");
+  const OutputFolder folder = folder_of(command);
   StudyRuns runs(cases_of(folder.path()));
   print_warnings(scene_warnings(bench.design.runs.front().scene));
   tell_cost(command, bench, runs);
