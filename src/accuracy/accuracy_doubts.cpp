@@ -62,7 +62,8 @@ std::vector<SharedDoubt> doubts_about(const AccuracyResult& result, const Scene&
                     "allow for it",
                     *result.fit->lack_of_fit()));
   if (!result.fit)
-    add(DoubtKind::no_limit, "errors are against the finest setting, which errs too: the runs do not tell the limit");
+    add(DoubtKind::no_limit,
+        "errors are against the finest setting, which errs too: the runs do not determine the limit");
   if (scene.space == Space::two_dimensional && !result.depth)
     add(DoubtKind::depth_left_out, "running the tray in 2D is an error of its own, which is not in these");
   return shared_doubts(doubts);
