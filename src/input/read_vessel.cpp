@@ -27,7 +27,6 @@ constexpr double thickness_rounding = 1e-9;  // of a seed's thickness, forgiven
 
 constexpr int most_of_a_fill = 100'000'000;  // seeds
 
-
 /// By which a fill says how much it is.
 const char* key_of_fill(const Table& fill_table) {
   return fill_table.has("height") ? "height" : "count";

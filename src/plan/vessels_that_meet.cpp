@@ -239,8 +239,8 @@ class OwnWalls {
   bool is_3d_;
   std::vector<NamedLine> lines_;
   std::vector<std::string> walls_by_name_;
-  std::vector<BoundingBox> boxes_;      // by wall
-  std::vector<int> flat_along_;  // by wall
+  std::vector<BoundingBox> boxes_;  // by wall
+  std::vector<int> flat_along_;     // by wall
   BoundingBox box_;
 };
 

@@ -292,18 +292,20 @@ std::vector<OutputFile> record_files(const Scene& scene, const Run& run, CsvForm
 }
 
 std::vector<FileText> record_file_texts() {
-  return {file_text("grains_NNN.csv", "of each snapshot: one row per grain, in the tray's frame, of a tray that turns steadily that at rest",
-                    grains_columns(Space::three_dimensional)),
-          file_text("fields_NNN.csv",
-                    "of each snapshot: one row per cell that holds a part of a grain, in it or in the snapshot before, "
-                    "in the tray's frame; in 3D of the view that record.view names",
-                    fields_columns(Space::three_dimensional)),
-          file_text("records.csv", "one row per snapshot and lot, and per snapshot one of all lots", records_columns()),
-          file_text("profile.csv", "one row per snapshot, layer and lot", profile_columns()),
-          file_text("flow.csv",
-                    "one row per hole and tenth of the run, or of the time until the tray was empty, and per hole one "
-                    "of all of it",
-                    flow_columns())};
+  return {
+      file_text("grains_NNN.csv",
+                "of each snapshot: one row per grain, in the tray's frame, of a tray that turns steadily that at rest",
+                grains_columns(Space::three_dimensional)),
+      file_text("fields_NNN.csv",
+                "of each snapshot: one row per cell that holds a part of a grain, in it or in the snapshot before, "
+                "in the tray's frame; in 3D of the view that record.view names",
+                fields_columns(Space::three_dimensional)),
+      file_text("records.csv", "one row per snapshot and lot, and per snapshot one of all lots", records_columns()),
+      file_text("profile.csv", "one row per snapshot, layer and lot", profile_columns()),
+      file_text("flow.csv",
+                "one row per hole and tenth of the run, or of the time until the tray was empty, and per hole one "
+                "of all of it",
+                flow_columns())};
 }
 
 }  // namespace vibrosow

@@ -637,9 +637,7 @@ TEST(SceneJson, ListsHaveAnEnd) {
             "scene.tray.motion.components: lists too many");
   EXPECT_EQ(said([](Scene& scene) { scene.tray.pieces.resize(list_limits::pieces + 1); }),
             "scene.tray.pieces: lists too many");
-  EXPECT_EQ(said([](Scene& scene) {
-              scene.record.emplace().times.assign(list_limits::snapshots + 1, 0.0);
-            }),
+  EXPECT_EQ(said([](Scene& scene) { scene.record.emplace().times.assign(list_limits::snapshots + 1, 0.0); }),
             "scene.record.times_s: lists too many");
 }
 
