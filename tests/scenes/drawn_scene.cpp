@@ -484,9 +484,12 @@ class SceneWriter {
       if (kind == 6) line({point(0, 0), point(l, 0)});                                     // a floor drawn twice
       if (kind == 7)
         line({point(middle, 0), point(middle, 0.5 * h)}), line({point(middle, 0.25 * h), point(l, 0.5 * h)});
-      if (kind == 8) line({point(l, 0), point(l, h)});          // an end wall drawn twice
-      if (kind == 9) arc(0.3 * l, 0.3 * h, 0.2 * l, 200, 340);  // a bowl
-      if (kind == 10) turned({point(6, 0), point(6, 0.4 * h)}, middle, vessel.depth / 2, "upright");
+      if (kind == 8) line({point(l, 0), point(l, h)});            // an end wall drawn twice
+      if (kind == 9) arc(0.3 * l, 0.3 * h, 0.2 * l, 200, 340);    // a bowl
+      if (kind == 10 && draw_.one_in(name + which + ".roof", 2))  // beneath it seeds come from all sides
+        turned({point(0, 0.5 * h), point(0.3 * std::min(l, d), 0.4 * h)}, middle, d / 2, "upright");
+      else if (kind == 10)
+        turned({point(6, 0), point(6, 0.4 * h)}, middle, d / 2, "upright");
       if (kind == 11) turned({point(4, 0), point(4, l)}, 0.4 * h, vessel.depth / 2, "along");
       if (kind == 12) along({point(0, 0.35 * h), point(0.5 * d, 0), point(d, 0.3 * h)});  // a groove
       if (kind == 13) along({point(0, 0.4 * h), point(0.6 * d, 0.25 * h)});               // a shelf

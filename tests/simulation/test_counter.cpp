@@ -338,15 +338,20 @@ TEST(Counter, FeedingKeepsTheBalance) {
   expect_balanced(run.balance);
 }
 
-TEST(Counter, APauseEndsTheRunWhereThatIsAsked) {
+Scene small_tray() {
   Scene scene;
   scene.lots = {{"grain", 6e-3, 2e-4, Shape::ball, 1.0}};
   scene.contact.shell_compression = 1e-3;
   scene.tray.name = "tray";
   scene.tray.length = 0.1;
+  scene.run.duration = 0.6;
+  return scene;
+}
+
+TEST(Counter, APauseEndsTheRunWhereThatIsAsked) {
+  Scene scene = small_tray();
   scene.tray.height = 0.15;
   scene.tray.fill = Fill{5, Packing::poured, 1e-3, false};
-  scene.run.duration = 0.6;
   scene.run.measure_from = 0.5;
   const vibrosow::Run whole = simulate(scene);
   EXPECT_TRUE(whole.end_reason.empty());
@@ -364,13 +369,8 @@ TEST(Counter, APauseEndsTheRunWhereThatIsAsked) {
 }
 
 TEST(Counter, APauseBeginsWhenHopperAndRainHaveBegun) {
-  Scene scene;
-  scene.lots = {{"grain", 6e-3, 2e-4, Shape::ball, 1.0}};
-  scene.contact.shell_compression = 1e-3;
-  scene.tray.name = "tray";
-  scene.tray.length = 0.1;
+  Scene scene = small_tray();
   scene.tray.height = 0.05;
-  scene.run.duration = 0.6;
   scene.run.end_after_pause = 0.1;
   Scene with_hopper = scene;
   Vessel& hopper = with_hopper.hopper.emplace(scene.tray);
