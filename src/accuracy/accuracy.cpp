@@ -13,7 +13,7 @@ double cost_of(const AccuracyRow& row) {
 /// What one setting's runs gave.
 void take_runs(AccuracyRow& row, const std::vector<AccuracyRun>& runs, std::size_t setting) {
   std::vector<double> rates;
-  double made = 0;
+  double made = 0, resolution = 0;
   for (const AccuracyRun& run : runs) {
     if (run.setting != setting) continue;
     if (!run.mass_rate) {
@@ -21,6 +21,7 @@ void take_runs(AccuracyRow& row, const std::vector<AccuracyRun>& runs, std::size
       continue;
     }
     rates.push_back(*run.mass_rate);
+    resolution = std::max(resolution, resolution_of(*run.mass_rate, run.seeds));
     row.grain_steps += run.grain_steps;
     row.cpu_time += run.cpu_time;
     made += run.made();
@@ -30,7 +31,7 @@ void take_runs(AccuracyRow& row, const std::vector<AccuracyRun>& runs, std::size
   row.replicates = static_cast<int>(rates.size());
   row.grain_steps /= count;
   row.cpu_time /= std::max(1.0, made);
-  row.mass_rate = mean_with_interval(rates);
+  row.mass_rate = mean_with_interval(rates, resolution);
 }
 
 std::size_t finest(const std::vector<AccuracyRow>& rows) {
@@ -82,7 +83,8 @@ AccuracyResult accuracy_of(const std::vector<AccuracySetting>& settings, const s
     row.refused = refused[i];
     take_runs(row, runs, i);
   }
-  if (part_of_one_value(settings, runs).empty()) result.fit = ErrorFit::of(settings, runs);
+  result.of_one_value = part_of_one_value(settings, runs);
+  if (result.of_one_value.empty()) result.fit = ErrorFit::of(settings, runs);
   if (result.fit)
     for (std::size_t i = 0; i < settings.size(); ++i)
       if (result.rows[i].mass_rate && result.fit->tells(i)) result.rows[i].fitted = result.fit->error(i);

@@ -32,7 +32,8 @@ struct AccuracyResult {
   std::vector<AccuracyRow> rows;      // of the settings that were to be run, in the order of the design
   std::vector<AccuracyRun> runs;      // their setting: index in `rows`
   std::size_t reference = 0;          // index of the finest setting whose step is not too long; it may have no rate
-  std::optional<ErrorFit> fit;        // none: too few runs
+  std::optional<ErrorFit> fit;        // none: too few runs, or
+  std::string_view of_one_value;      // what all runs have one value of (`part_of_one_value`)
   std::optional<DepthError> depth{};  // where it was asked for
 };
 

@@ -150,6 +150,29 @@ std::map<Integrator, std::set<double>> steps_by_scheme(const std::vector<Accurac
   return steps;
 }
 
+/// Whether runs of both varied do not tell the effect of the one from that of the other.
+bool steps_go_with_softness(const std::vector<AccuracySetting>& settings, const std::vector<AccuracyRun>& runs,
+                            const std::map<Integrator, std::set<double>>& steps) {
+  std::vector<AccuracySetting> observed;
+  for (const AccuracyRun& run : runs)
+    if (const AccuracySetting& setting = settings[run.setting];
+        run.mass_rate && steps.at(setting.integrator).size() > 1)
+      observed.push_back(setting);
+  const auto varied = std::ranges::count_if(steps, [](const auto& one) { return one.second.size() > 1; });
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(observed.size()), 2 + varied);
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    const AccuracySetting& setting = observed[static_cast<std::size_t>(i)];
+    columns(i, 0) = 1, columns(i, 1) = setting.contact_duration;
+    Eigen::Index column = 2;
+    for (const auto& [integrator, numbers] : steps) {
+      if (numbers.size() < 2) continue;
+      if (integrator == setting.integrator) columns(i, column) = 1 / setting.steps_per_contact;
+      ++column;
+    }
+  }
+  return rank_of(columns) < columns.cols();
+}
+
 }  // namespace
 
 std::string_view part_of_one_value(const std::vector<AccuracySetting>& settings, const std::vector<AccuracyRun>& runs) {
@@ -159,8 +182,9 @@ std::string_view part_of_one_value(const std::vector<AccuracySetting>& settings,
   if (softnesses.empty()) return "";
   if (softnesses.size() < 2) return "softness";
   const auto steps = steps_by_scheme(settings, runs);
-  return std::ranges::all_of(steps, [](const auto& one) { return one.second.size() < 2; }) ? "number of steps a contact"
-                                                                                           : "";
+  if (std::ranges::all_of(steps, [](const auto& one) { return one.second.size() < 2; }))
+    return "number of steps a contact";
+  return steps_go_with_softness(settings, runs, steps) ? "number of steps a contact for each softness" : "";
 }
 
 bool ErrorFit::tells(std::size_t setting) const {
@@ -176,6 +200,7 @@ std::optional<ErrorFit> ErrorFit::of(const std::vector<AccuracySetting>& setting
   std::vector<AccuracyRun> observed;
   std::ranges::copy_if(runs, std::back_inserter(observed),
                        [&](const AccuracyRun& run) { return run.mass_rate && fit.tells(run.setting); });
+  for (const AccuracyRun& run : observed) fit.observed_.push_back(settings[run.setting]);
   fit.choose_terms(observed);
   const auto terms = 1 + static_cast<Eigen::Index>(fit.terms_.size());
   if (static_cast<Eigen::Index>(observed.size()) < terms + 2) return std::nullopt;
@@ -274,7 +299,7 @@ double ErrorFit::simultaneous_factor() const {
 
 std::vector<MainEffect> ErrorFit::effects() const {
   const auto extremes = [this](double AccuracySetting::*part) {
-    const auto [least, most] = std::ranges::minmax_element(settings_, {}, part);
+    const auto [least, most] = std::ranges::minmax_element(observed_, {}, part);
     return std::pair(*least, *most);
   };
   const auto [stiff, soft] = extremes(&AccuracySetting::contact_duration);

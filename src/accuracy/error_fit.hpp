@@ -88,8 +88,8 @@ class ErrorFit {
   MainEffect effect(ErrorSource source, const AccuracySetting& from, const AccuracySetting& to) const;
   double simultaneous_factor() const;
 
-  std::vector<AccuracySetting> settings_;
-  std::map<Integrator, std::set<double>> steps_;  // a contact, of the runs of each scheme
+  std::vector<AccuracySetting> settings_, observed_;  // all, and one for each run that was fitted
+  std::map<Integrator, std::set<double>> steps_;      // a contact, of the runs of each scheme
   std::vector<Term> terms_;
   Eigen::VectorXd coefficients_;  // kg/s: the limit, then of each term
   Eigen::MatrixXd covariance_;    // over the variance of a run
@@ -103,7 +103,8 @@ class ErrorFit {
 };
 
 /// What all runs with a rate have one value of, so that what it errs by is not known: "softness" or, of every scheme,
-/// "number of steps a contact"; empty: neither, or no run has a rate.
+/// "number of steps a contact", or "number of steps a contact for each softness" where the one goes with the other;
+/// empty: none of these, or no run has a rate.
 std::string_view part_of_one_value(const std::vector<AccuracySetting>& settings, const std::vector<AccuracyRun>& runs);
 
 }  // namespace vibrosow

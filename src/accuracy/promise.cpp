@@ -207,8 +207,8 @@ bool interrupted(const std::vector<AccuracyRun>& runs) {
 std::string why_no_fit(const Promise& made) {
   const std::vector<AccuracyRun>& pilots = made.runs;
   if (interrupted(pilots)) return interrupted_run;
-  if (const std::string_view part = part_of_one_value(made.settings, pilots); !part.empty())
-    return fmt::format("all pilots have one {}, so what it errs by is not known; give two or more", part);
+  if (!made.of_one_value.empty())
+    return fmt::format("all pilots have one {}, so what it errs by is not known; give two or more", made.of_one_value);
   const auto stood_still = [](const AccuracyRun& run) { return run.mass_rate == 0.0; };
   return std::ranges::all_of(pilots, stood_still) ? "nothing flows" : "too few of the pilots have a rate";
 }
@@ -217,7 +217,8 @@ void make_pilots(Promise& made, const std::vector<SettingRuns>& pilots, const Ru
   add(made.runs, run(pilots));
   made.pilots = made.runs.size();
   made.pilot_cpu_time = cpu_time_of(made.runs);
-  const bool can_tell = !interrupted(made.runs) && part_of_one_value(made.settings, made.runs).empty();
+  made.of_one_value = part_of_one_value(made.settings, made.runs);
+  const bool can_tell = !interrupted(made.runs) && made.of_one_value.empty();
   made.fit = can_tell ? ErrorFit::of(made.settings, made.runs) : std::nullopt;
 }
 

@@ -38,7 +38,8 @@ struct Promise {
   std::vector<AccuracySetting> settings;
   std::vector<AccuracyRun> runs;                   // pilots first
   std::size_t pilots = 0;                          // how many of the runs
-  std::optional<ErrorFit> fit;                     // of the pilots
+  std::optional<ErrorFit> fit;                     // of the pilots; none: too few of them, or
+  std::string_view of_one_value;                   // what all of them have one value of (`part_of_one_value`)
   std::optional<Offer> offer;                      // what was chosen and run
   std::optional<Offer> least;                      // where nothing was chosen: the smallest error within reach
   std::optional<Offer> finest;                     // the finest setting run directly, if it is within the goal

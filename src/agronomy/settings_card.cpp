@@ -39,8 +39,7 @@ std::vector<CardRow> settings_card(const TrayRates& rates, const SowingTask& tas
     if (row.setting) continue;
     row.setting = rates.by_width(row.needed);
     row.is_other_width = row.setting.has_value();
-    const double largest = std::max(task.seed.largest, task.seed.diameter);
-    row.clogs = row.is_other_width && hole_class(row.setting->width / largest) == HoleClass::clogs;
+    row.clogs = row.is_other_width && hole_class(row.setting->width / task.seed.largest_diameter()) == HoleClass::clogs;
   }
   return card;
 }

@@ -69,7 +69,7 @@ class Search {
   std::vector<PlannedLayout> layouts() {
     std::vector<PlannedLayout> found;
     for (const HolesForRows& feed : feeds) {
-      if (task_.rows % feed.rows != 0) continue;
+      if (task_.rows.value_or(0) % feed.rows != 0) continue;
       for (const double depth : depths())
         for (const double width : widths()) add_layouts(feed, width, depth, found);
     }
@@ -134,7 +134,7 @@ class Search {
       layout.feed = feed;
       layout.width = width;
       layout.width_over_d = width / diameter_;
-      layout.width_over_largest = width / std::max(task_.seed.largest, diameter_);
+      layout.width_over_largest = width / task_.seed.largest_diameter();
       layout.depth_over_d = depth;
       layout.peak_speed = table_.peak_speed_giving(wanted, {task_.seed.aspect, layout.width_over_d, 0, depth},
                                                    speeds_[k], speeds_[k + 1]);
@@ -162,7 +162,7 @@ class Search {
   /// Of holes of so many seeds and more.
   std::optional<NearestChange::WiderHole> narrowest(double width_over_d) const {
     for (const double width : widths()) {
-      if (width / std::max(task_.seed.largest, diameter_) < width_over_d || speeds_.empty()) continue;
+      if (width / task_.seed.largest_diameter() < width_over_d || speeds_.empty()) continue;
       double least = 0;
       for (const double depth : depths())
         for (const double outflow : outflows(width / diameter_, depth))

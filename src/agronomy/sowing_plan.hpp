@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct PlannedSeed {
   double mass = 0;      // kg
   double aspect = 1;    // how many times it is as long as wide; its thickness counts through the volume alone
   double largest = 0;   // m, the diameter of the largest lot's seeds, by which holes clog; 0: `diameter`
+  double largest_diameter() const { return std::max(largest, diameter); }
   bool has_larger() const { return largest > diameter * (1 + 1e-9); }
 };
 
@@ -41,7 +43,7 @@ struct SowingTask {
   PlannedSeed seed;
   double sowing_rate = 0;  // kg/m2
   RowPace pace;
-  int rows = 0;  // of the drill, which holes for several must share out evenly; 0: not known
+  std::optional<int> rows;  // of the drill, where known: holes for several must share them out evenly
   double row_mass_rate() const { return row_rate(sowing_rate, pace); }                // kg/s
   double row_seed_rate() const { return seeds_of_mass(row_mass_rate(), seed.mass); }  // 1/s
   double seeds_per_area() const { return seeds_of_mass(sowing_rate, seed.mass); }     // 1/m2

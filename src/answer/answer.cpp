@@ -53,7 +53,7 @@ LayoutStanding standing_of(const FrontLayout& of, const OptimiseOptions& options
 }
 
 AnswerMetric metric_of(const Metric& metric) {
-  return {metric.name, metric.heading, metric.unit, metric.unit_size, metric.description, !metric.pooled};
+  return {metric.name, metric.heading, metric.unit, metric.unit_size, metric.description, !metric.is_pooled()};
 }
 
 AnswerMetric clogged() {

@@ -87,7 +87,8 @@ CalibrationTask task_of(const CalibrateOptions& command, const InputFile& seeder
   task.overrides = command.common.overrides();
   task.measured.file = command.table;
   task.measured.table = read_table(command, *seeder.files);
-  if (!command.time_zero.empty()) task.measured.time_zero = time_option("--time-zero", command.time_zero);
+  if (!command.time_zero.empty())
+    task.measured.time_zero = quantity_option("--time-zero", command.time_zero, Dimension::time, 0, 1e6, "2 s");
   for (const std::string& fit : command.fits) task.keys.push_back(parse_fitted_key(fit));
   if (task.keys.empty()) task.keys = usual_fitted_keys(task.seeder, task.overrides, seeder.files);
   task.measured.scale = scale_of(command, task.measured.table, middle_scene(task, seeder.files));

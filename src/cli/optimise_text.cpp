@@ -63,6 +63,9 @@ std::string optimise_text(const OptimiseResult& result, const std::string& folde
   std::string text = result.study.title.empty() ? "" : wrapped(result.study.title) + "\n";
   const Answer answer = answer_of(result);
   if (result.is_interrupted) text += wrapped("Interrupted. So far:");
+  if (result.is_interrupted &&
+      std::ranges::all_of(result.layouts, [](const FrontLayout& one) { return one.runs == 0; }))
+    return text + wrapped("No run was made, so nothing is known of any layout.") + wrapped(front_cost(result));
   const std::string sure = leading_text(result, FrontStanding::on_front);
   const std::string unsure = leading_text(result, FrontStanding::may_be_on_front);
   if (!sure.empty()) text += fmt::format("On the front:\n{}", sure);

@@ -130,7 +130,7 @@ PlanSource source_of(const PlanOptions& options) {
   task.pace.row_spacing = quantity_option("--row-spacing", options.row_spacing, Dimension::length, 0.01, 10, "15 cm");
   task.pace.speed = quantity_option("--speed", options.speed, Dimension::travel_speed, 0.01, 20);
   source.rows = options.rows;
-  task.rows = options.rows.value_or(0);
+  task.rows = options.rows;
   return source;
 }
 

@@ -274,6 +274,7 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
     if (goal.metric != nullptr && goal.metric->is_most) mean = -mean;
   }
   std::vector<double> rates;
+  double resolution = 0;
   std::vector<const Outflow*> counted, flowed;
   for (std::size_t r = 0; r < static_cast<std::size_t>(result.runs); ++r) {
     const Evaluation& run = evaluation(Variant::as_it_is, trial, r);
@@ -281,6 +282,7 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
         std::ranges::any_of(variants_, [&](Variant variant) { return has_clogged(evaluation(variant, trial, r)); });
     if (!run.is_sound() || (has_clogged(run) && options_.clogging_limit < 1)) continue;
     rates.push_back(rate_as(Variant::as_it_is, trial, r));
+    resolution = std::max(resolution, resolution_of(rates.back(), run.outflow.seeds()));
     counted.push_back(&run.outflow);
     if (!has_clogged(run)) flowed.push_back(&run.outflow);
   }
@@ -293,7 +295,7 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
   else if (const auto goal = std::ranges::find_if(options_.goals, is_rate); goal != options_.goals.end())
     result.rate = result.goals[static_cast<std::size_t>(goal - options_.goals.begin())];
   else if (!rates.empty())
-    result.rate = mean_with_interval(rates);
+    result.rate = mean_with_interval(rates, resolution);
   return result;
 }
 

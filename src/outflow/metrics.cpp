@@ -33,36 +33,37 @@ using Source = const MetricSource&;
 constexpr std::array table = {
     Metric{"rate_g_per_s", "g/s", "g/s", gram,
            "mass flow through all holes, of the 2D slice or in 3D of the tray, in the window",
-           [](Source s) { return Value(whole(s.outflow).mass_rate); }},
+           [](Source s) { return Value(whole(s.outflow).mass_rate); }, Metric::Kind::rate},
     Metric{"seeds_per_s", "seeds/s", "1/s", 1,
            "seeds through all holes, of the 2D slice or in 3D of the tray, in the window",
-           [](Source s) { return Value(whole(s.outflow).seeds_per_s); }},
+           [](Source s) { return Value(whole(s.outflow).seeds_per_s); }, Metric::Kind::rate},
     Metric{"depth_factor", "factor", "", 1,
            "tray.depth over the thickness of the 2D slice, by which its rates are multiplied; in 3D 1; empty without "
            "tray.depth",
-           [](Source s) { return s.outflow.depth_factor; }, true},
+           [](Source s) { return s.outflow.depth_factor; }, Metric::Kind::pooled},
     Metric{"tray_rate_g_per_s", "tray g/s", "g/s", gram, "mass flow of the whole tray; empty without tray.depth",
-           [](Source s) { return of_tray(s.outflow, whole(s.outflow).mass_rate); }},
+           [](Source s) { return of_tray(s.outflow, whole(s.outflow).mass_rate); }, Metric::Kind::rate},
     Metric{"tray_rate_g_per_min", "tray g/min", "g/min", gram / 60, "the same per minute",
-           [](Source s) { return of_tray(s.outflow, whole(s.outflow).mass_rate); }},
+           [](Source s) { return of_tray(s.outflow, whole(s.outflow).mass_rate); }, Metric::Kind::rate},
     Metric{"tray_seeds_per_s", "tray seeds/s", "1/s", 1, "seeds of the whole tray; empty without tray.depth",
-           [](Source s) { return of_tray(s.outflow, whole(s.outflow).seeds_per_s); }},
+           [](Source s) { return of_tray(s.outflow, whole(s.outflow).seeds_per_s); }, Metric::Kind::rate},
     Metric{"raw_cv_percent", "raw CV %", "%", percent,
            "coefficient of variation of the seeds of the holes, all replicates together",
-           [](Source s) { return s.raw_cv; }, true},
+           [](Source s) { return s.raw_cv; }, Metric::Kind::pooled},
     Metric{"run_cv_percent", "CV of a run %", "%", percent,
            "the same of the seeds of a single run, in which chance weighs more",
            [](Source s) { return s.outflow.raw_cv; }},
     Metric{"chance_cv_percent", "chance %", "%", percent, "what of the raw one holes of equal rates would show",
-           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.chance_cv; }); }, true},
+           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.chance_cv; }); },
+           Metric::Kind::pooled},
     Metric{"unevenness_cv_percent", "unevenness (CV) %", "%", percent,
            "coefficient of variation of the holes' rates without chance; empty: no difference beyond chance (F test of "
            "holes against replicates, of one run against its blocks)",
-           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.cv; }); }, true},
+           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.cv; }); }, Metric::Kind::pooled},
     Metric{"unevenness_cv_percent_low", "low", "%", percent, "lower end of its 95 % interval",
-           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.low; }); }, true},
+           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.low; }); }, Metric::Kind::pooled},
     Metric{"unevenness_cv_percent_high", "high", "%", percent, "upper end: what it may be up to where it is empty",
-           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.high; }); }, true},
+           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.high; }); }, Metric::Kind::pooled},
     Metric{
         "instability_cv_percent", "instability CV %", "%", percent,
         "coefficient of variation of the whole outflow over about ten equal parts of the window, whole periods of the "
@@ -98,14 +99,19 @@ MetricMeans::MetricMeans(const std::vector<const Outflow*>& replicates) {
   const MetricSource all = together(replicates);
   for (std::size_t i = 0; i < table.size(); ++i) {
     std::vector<double> values;
-    const auto add = [&](const Value& value) {
-      if (value && std::isfinite(*value)) values.push_back(*value);
+    double resolution = 0;
+    const auto add = [&](const MetricSource& source) {
+      const Value value = table[i].of(source);
+      if (!value || !std::isfinite(*value)) return;
+      values.push_back(*value);
+      if (table[i].kind == Metric::Kind::rate)
+        resolution = std::max(resolution, resolution_of(*value, source.outflow.seeds()));
     };
-    if (table[i].pooled)
-      add(table[i].of(all));
+    if (table[i].is_pooled())
+      add(all);
     else
-      for (const Outflow* one : replicates) add(table[i].of({*one}));
-    if (!values.empty()) means_[i] = mean_with_interval(values);
+      for (const Outflow* one : replicates) add({*one});
+    if (!values.empty()) means_[i] = mean_with_interval(values, resolution);
   }
 }
 

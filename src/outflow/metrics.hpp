@@ -26,7 +26,13 @@ struct Metric {
   double unit_size;                                  // of that unit, in SI
   std::string_view description;                      // a clause without a full stop
   std::optional<double> (*of)(const MetricSource&);  // SI; none where it is undefined
-  bool pooled = false;  // of replicates: taken once from the seeds of all together, not a mean with an interval
+  enum class Kind {
+    mean,    // of replicates: their mean with its interval
+    rate,    // the same, of seeds that were counted, so that a run gives it to one of them
+    pooled,  // of replicates: taken once from the seeds of all together
+  };
+  Kind kind = Kind::mean;
+  bool is_pooled() const { return kind == Kind::pooled; }
 };
 
 /// All figures of a run, in the order of sweep.csv.

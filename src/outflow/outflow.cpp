@@ -273,24 +273,34 @@ std::optional<Unevenness> unevenness_of(const std::vector<const Outflow*>& repli
 MeanWithInterval rate_of_blocks(const Outflow& outflow, std::optional<std::size_t> hole) {
   const std::vector<double> ends = block_ends(outflow.window);
   std::vector<double> rates;
+  double resolution = 0;
   for (std::size_t k = 0; k < outflow.grains_of_hole_in_block.size(); ++k) {  // none of a tray without holes
     const std::vector<std::int64_t>& counts = outflow.grains_of_hole_in_block[k];
     const std::int64_t seeds = hole ? counts[*hole] : std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
     rates.push_back(static_cast<double>(seeds) / (ends[k + 1] - ends[k]));
+    resolution = std::max(resolution, resolution_of(rates.back(), static_cast<double>(seeds)));
   }
-  return mean_with_interval(rates);
+  return mean_with_interval(rates, resolution);
 }
 
 std::optional<double> chance_of_rate(const std::vector<const Outflow*>& replicates) {
   std::vector<double> rates;
+  double resolution = 0;
   const Outflow* last = nullptr;
-  for (const Outflow* one : replicates)
-    if (const double rate = find_row(*one, "all", "all")->mass_rate; std::isfinite(rate))
-      rates.push_back(rate), last = one;
+  for (const Outflow* one : replicates) {
+    const double rate = find_row(*one, "all", "all")->mass_rate;
+    if (!std::isfinite(rate)) continue;
+    rates.push_back(rate), last = one;
+    resolution = std::max(resolution, resolution_of(rates.back(), one->seeds()));
+  }
   if (rates.empty()) return std::nullopt;
-  const MeanWithInterval mean = rates.size() > 1 ? mean_with_interval(rates) : rate_of_blocks(*last);
+  const MeanWithInterval mean = rates.size() > 1 ? mean_with_interval(rates, resolution) : rate_of_blocks(*last);
   if (!(mean.mean > 0) || !mean.half_width_95) return std::nullopt;
   return *mean.half_width_95 / mean.mean;
+}
+
+double Outflow::seeds() const {
+  return static_cast<double>(find_row(*this, "all", "all")->grains);
 }
 
 const HoleOutflow* find_row(const Outflow& outflow, const std::string& hole, const std::string& lot) {

@@ -43,6 +43,7 @@ struct Outflow {
   double spilled_fraction = 0;           // spilled / (counted + spilled), whole run
   std::optional<double> depth_factor;    // tray.depth / diameter of the plane slice; in 3D 1
   std::vector<Doubt> doubts;             // what speaks against the figures; empty when all is well
+  double seeds() const;                  // through all holes in the window
   std::string note() const;              // their texts: "ran dry at 3.2 s; outside the model"
 };
 

@@ -1,5 +1,6 @@
 #include "outflow/statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -26,12 +27,13 @@ double student_t_95(double degrees_of_freedom) {
   return students_t_quantile(degrees_of_freedom, 0.975);
 }
 
-MeanWithInterval mean_with_interval(const std::vector<double>& values) {
+MeanWithInterval mean_with_interval(const std::vector<double>& values, double resolution) {
   if (values.empty()) return {std::numeric_limits<double>::quiet_NaN(), std::nullopt};
   const double mean = mean_of(values);
   if (values.size() < 2) return {mean, std::nullopt};
   const auto count = static_cast<double>(values.size());
-  return {mean, student_t_95(count - 1) * sample_deviation(values, mean) / std::sqrt(count)};
+  const double deviation = std::max(sample_deviation(values, mean), resolution / std::sqrt(12));
+  return {mean, student_t_95(count - 1) * deviation / std::sqrt(count)};
 }
 
 std::optional<double> coefficient_of_variation(const std::vector<double>& values) {

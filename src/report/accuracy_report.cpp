@@ -382,16 +382,6 @@ std::string accuracy_table(const AccuracyResult& result) {
          '\n' + errors_text(result);
 }
 
-namespace {
-
-std::string_view one_valued_part(const AccuracyResult& result) {
-  std::vector<AccuracySetting> settings;
-  for (const AccuracyRow& row : result.rows) settings.push_back(row.setting);
-  return part_of_one_value(settings, result.runs);
-}
-
-}  // namespace
-
 std::string accuracy_sentence(const AccuracyResult& result) {
   const AccuracyRow& reference = result.rows[result.reference];
   const std::string finest = setting_text(reference.setting);
@@ -400,8 +390,9 @@ std::string accuracy_sentence(const AccuracyResult& result) {
                        reference.refused);
   if (!reference.error_percent)
     return fmt::format("Nothing flows at the finest setting ({}), so there is nothing to compare with.", finest);
-  if (const std::string_view part = one_valued_part(result); !part.empty())
-    return fmt::format("All runs have one {}, so what it errs by is not known: give two values or more.", part);
+  if (!result.of_one_value.empty())
+    return fmt::format("All runs have one {}, so what it errs by is not known: give two values or more.",
+                       result.of_one_value);
   if (!result.fit) return "Too few runs to tell the errors apart: more replicates would.";
   if (!reference.fitted)
     return fmt::format("What the scheme of the finest setting ({}) errs by is not known: give it two numbers of steps.",

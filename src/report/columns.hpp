@@ -97,7 +97,7 @@ void add_metric_columns(Columns<Row>& columns, Get means) {
   for (const Metric& metric : metrics()) {
     const Unit unit{metric.unit, metric.unit_size};
     const std::string name(metric.name), description(metric.description);
-    if (!metric.pooled)
+    if (!metric.is_pooled())
       add_mean_columns(
           columns, name, unit, description,
           [ means, &metric ](const Row& row) -> const auto& { return means(row)[metric]; });

@@ -86,8 +86,7 @@ std::string reading_text(const PlanCard& card) {
         " clogs: narrower than {:g} of the largest seeds, {} mm, so not a setting to sow with; drive faster, or feed "
         "more "
         "rows from a hole.",
-        kept_open_from,
-        to_digits(kept_open_from * std::max(card.tray.seed.largest, card.tray.seed.diameter) / millimetre, 3));
+        kept_open_from, to_digits(kept_open_from * card.tray.seed.largest_diameter() / millimetre, 3));
   return text;
 }
 

@@ -181,7 +181,7 @@ std::string wider_text(const SowingPlan& plan, const std::optional<NearestChange
   constexpr int rows_tried = 4;
   if (!hole || hole->rows <= rows_tried) return "";
   return fmt::format("a hole of {:g} mm, {} seeds wide, would have to feed at least {} rows", hole->width / millimetre,
-                     to_digits(hole->width / std::max(plan.task.seed.largest, plan.task.seed.diameter), 2), hole->rows);
+                     to_digits(hole->width / plan.task.seed.largest_diameter(), 2), hole->rows);
 }
 
 std::string change_text(const SowingPlan& plan) {

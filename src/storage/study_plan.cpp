@@ -134,7 +134,8 @@ std::string current_plan(const fs::path& folder) {
   constexpr std::size_t most = 1000;  // bytes
   std::string name = text_of_file_or_none(pointer_of(folder).path(), most).value_or("");
   if (name.empty())
-    throw InputError(fmt::format("{}: there is no cases/plan: not a folder of a sweep", folder.string()));
+    throw InputError(
+        fmt::format("{}: holds no results: neither report.json nor cases/plan, a study's", folder.string()));
   if (name.ends_with('\n')) name.pop_back();
   if (!is_hash_name(name, plan_digits))
     throw InputError(fmt::format("{}: is damaged: it holds no plan's name", pointer_of(folder).path().string()));

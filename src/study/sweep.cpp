@@ -73,13 +73,21 @@ std::optional<MeanWithInterval> mean_over(const std::vector<Evaluation>& replica
   return mean_with_interval(values);
 }
 
-template <typename Member>
-std::optional<MeanWithInterval> mean_of_row(const std::vector<Evaluation>& replicates, const std::string& hole,
-                                            const std::string& lot, Member member) {
-  return mean_over(replicates, [&](const Evaluation& one) -> std::optional<double> {
-    const HoleOutflow* row = find_row(one.outflow, hole, lot);
-    return row ? std::optional(row->*member) : std::nullopt;
-  });
+/// Mean of a hole's figure over the finished replicates that have it.
+std::optional<MeanWithInterval> mean_of_row(const std::vector<Evaluation>& replicates, const HoleOutflow& hole,
+                                            double HoleOutflow::*member) {
+  std::vector<double> values;
+  double resolution = 0;
+  for (const Evaluation& replicate : replicates) {
+    if (!replicate.finished()) continue;
+    const HoleOutflow* row = find_row(replicate.outflow, hole.hole, hole.lot);
+    if (!row || !std::isfinite(row->*member)) continue;
+    values.push_back(row->*member);
+    if (member != &HoleOutflow::longest_pause)
+      resolution = std::max(resolution, resolution_of(values.back(), static_cast<double>(row->grains)));
+  }
+  if (values.empty()) return std::nullopt;
+  return mean_with_interval(values, resolution);
 }
 
 std::vector<const Outflow*> finished_outflows(const std::vector<Evaluation>& replicates) {
@@ -99,9 +107,9 @@ std::vector<HoleMetrics> hole_metrics(const std::vector<Evaluation>& replicates)
     metrics.lot = row.lot;
     metrics.centre = row.centre, metrics.across = row.across;
     metrics.width = row.width;
-    metrics.seeds_per_s = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::seeds_per_s);
-    metrics.mass_rate = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::mass_rate);
-    metrics.longest_pause = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::longest_pause);
+    metrics.seeds_per_s = mean_of_row(replicates, row, &HoleOutflow::seeds_per_s);
+    metrics.mass_rate = mean_of_row(replicates, row, &HoleOutflow::mass_rate);
+    metrics.longest_pause = mean_of_row(replicates, row, &HoleOutflow::longest_pause);
     holes.push_back(std::move(metrics));
   }
   return holes;

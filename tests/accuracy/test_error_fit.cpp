@@ -121,7 +121,22 @@ TEST(ErrorFit, WhatHasOneValueIsNamed) {
   EXPECT_EQ(part_of_one_value(settings, {first, finer}), "softness");
   EXPECT_EQ(part_of_one_value(settings, {first, softer}), "number of steps a contact");
   EXPECT_EQ(part_of_one_value(settings, {first, finer, softer}), "");
+  EXPECT_EQ(part_of_one_value(settings, {finer, softer}), "number of steps a contact for each softness");
   EXPECT_EQ(part_of_one_value(settings, {}), "");
+}
+
+/// A softness of which no run has a rate is not one that the rate was seen to change over.
+TEST(ErrorFit, EffectsGoFromTheFinestToTheCoarsestOfWhatRan) {
+  const std::vector<AccuracySetting> settings = {MadeUpTray::setting(1e-4, 20), MadeUpTray::setting(1e-4, 40),
+                                                 MadeUpTray::setting(4e-4, 20), MadeUpTray::setting(1e-3, 20)};
+  std::vector<AccuracyRun> runs;
+  for (const double chance : {-0.01, 0.01})
+    for (std::size_t setting = 0; setting < 3; ++setting) runs.push_back(accuracy_run(setting, 1, 1 + chance));
+  runs.push_back({.setting = 3, .window = 1, .refused = "stopped by the guard"});
+  const MainEffect softness = ErrorFit::of(settings, runs)->effects().front();
+  ASSERT_EQ(softness.source, ErrorSource::softness);
+  EXPECT_EQ(softness.from.shell_compression, 1e-4);
+  EXPECT_EQ(softness.to.shell_compression, 4e-4);
 }
 
 /// Of a scheme with one number of steps nothing is known, beside one with two.

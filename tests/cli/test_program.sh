@@ -229,7 +229,7 @@ expect 0 "reports: one-job" sweep study.toml --out one-job
 cmp -s one-job/sweep.csv whole.csv || fail "a run made again is another"
 expect 0 "reports: one-job" export one-job
 cmp -s one-job/sweep.csv whole.csv || fail "an export differs from the sweep"
-expect 2 "no cases/plan:" status set
+expect 2 "neither report.json nor cases/plan" status set
 
 # Shares of a plan, on one folder or packed.
 expect 0 "^shard 2/3: 0 runs made" work one-job --shard 2/3

@@ -36,6 +36,18 @@ TEST(Metrics, AreTakenFromTheRunAndMeansOverItsReplicates) {
   EXPECT_FALSE(MetricMeans()["seeds_per_s"]);
 }
 
+TEST(Metrics, RatesOfEqualCountsAreKnownToOneSeed) {
+  const Scene scene = made_up_scene(1);
+  vibrosow::Run run = made_up_run(scene);
+  for (int i = 0; i < 8; ++i) add_grain(run, 3 + 0.1 * i, 1);  // 1 a second in the window of 8 s
+  const Outflow outflow = measure_outflow(scene, run);
+  const MetricMeans means({&outflow, &outflow});
+  EXPECT_NEAR(*means["seeds_per_s"]->half_width_95, 12.7062 / 8 / std::sqrt(12 * 2.0), 1e-4);
+  EXPECT_NEAR(*means["rate_g_per_s"]->half_width_95, 40e-6 * 12.7062 / 8 / std::sqrt(12 * 2.0), 1e-8);
+  EXPECT_EQ(*means["longest_pause_s"]->half_width_95, 0);
+  EXPECT_NEAR(*chance_of_rate({&outflow, &outflow}), 12.7062 / 8 / std::sqrt(12 * 2.0), 1e-4);
+}
+
 TEST(Metrics, OfTheTrayAreTheSlicesTimesItsDepthFactor) {
   Scene scene = made_up_scene(1);
   scene.tray.depth = 0.06;  // of balls of 4 mm: 15

@@ -16,6 +16,8 @@ TEST(MeanWithInterval, UsesStudentsTOfTheTables) {
 
   // t(0.975, 1) = 12.7062, s = sqrt(2), n = 2
   EXPECT_NEAR(*mean_with_interval({4, 6}).half_width_95, 12.7062, 1e-4);
+  EXPECT_NEAR(*mean_with_interval({4, 6}, 1).half_width_95, 12.7062, 1e-4);
+  EXPECT_NEAR(*mean_with_interval({5, 5}, 1).half_width_95, 12.7062 / std::sqrt(24), 1e-4);
 }
 
 TEST(MeanWithInterval, OneValueHasNoIntervalAndNoneHasNoMean) {

@@ -95,10 +95,15 @@ TEST_F(AccuracyPage, TimesAreInTheirOwnFileAndShownByThePage) {
   EXPECT_FALSE(kept_page_data(folder));
 }
 
-TEST_F(AccuracyPage, ErrorsAreAgainstTheLimitWhereRunsSuffice) {
-  const auto page = data(4);
-  const AccuracyResult of = result(4);
+TEST_F(AccuracyPage, ErrorsAreAgainstTheLimitWhereRunsTellStepFromSoftness) {
+  EXPECT_EQ(data(4)["against"], "the finest setting") << "the softer one has another number of steps";
+  std::vector<AccuracyRun> runs = result(4).runs;
+  for (int r = 0; r < 4; ++r)
+    runs.push_back(run_of(2, static_cast<std::uint64_t>(r) + 1, 0.0104 + 1e-6 * (r % 2), 2e7));
+  const AccuracyResult of =
+      accuracy_of({setting_of(40, 1e-4), setting_of(20, 2e-4), setting_of(20, 1e-4)}, {"", "", ""}, runs);
   ASSERT_TRUE(of.fit);
+  const auto page = nlohmann::json::parse(accuracy_page_data(scene_, of));
   EXPECT_THAT(page["against"].get<std::string>(), StartsWith("the limit"));
   EXPECT_EQ(page["levels"][1]["error"]["percent"], of.rows[1].fitted->percent);
   EXPECT_EQ(page["levels"][1]["error"]["band"], of.rows[1].fitted->band);
