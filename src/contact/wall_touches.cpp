@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 namespace vibrosow {
 
@@ -11,13 +12,33 @@ void WallTouches::begin(std::size_t first, std::size_t count) {
   twins_.clear();
 }
 
-/// What lay on the wall that pushed lies on the other now, as does that wall.
-void WallTouches::replace(std::size_t pushing, const Touch& by, std::size_t first_twin) {
-  const Touch before = pushing_[pushing];
-  pushing_.erase(pushing_.begin() + static_cast<std::ptrdiff_t>(pushing));
-  for (std::size_t k = first_twin; k < twins_.size(); ++k)
-    if (twins_[k].pusher == before.candidate) twins_[k].pusher = by.candidate;
-  if (before.inside) twins_.push_back({before.candidate, by.candidate});
+void WallTouches::sort_by_distance(double radius) {
+  constexpr double as_near = 1e-9;  // of the radius
+  sorted_.resize(touched_.size());
+  std::iota(sorted_.begin(), sorted_.end(), std::size_t{0});
+  for (auto from = sorted_.begin(); from != sorted_.end(); ++from) {
+    const auto distance = [&](std::size_t k) { return touched_[k].distance; };
+    const double least = distance(*std::ranges::min_element(from, sorted_.end(), {}, distance));
+    const auto is_next = [&](std::size_t k, bool inside) {
+      return touched_[k].distance <= least + as_near * radius && touched_[k].inside == inside;
+    };
+    auto next = std::find_if(from, sorted_.end(), [&](std::size_t k) { return is_next(k, true); });
+    if (next == sorted_.end()) next = std::find_if(from, sorted_.end(), [&](std::size_t k) { return is_next(k, false); });
+    std::rotate(from, next, next + 1);  // the others stay in their order
+  }
+}
+
+void WallTouches::take_chosen() {
+  pushing_.clear();
+  for (const bool inside : {true, false})
+    for (std::size_t k = 0; k < touched_.size(); ++k) {
+      if (touched_[k].inside != inside) continue;
+      const std::size_t candidate = touched_[k].candidate;
+      if (pusher_of_[k] == k)
+        pushing_.push_back(touched_[k]), add(candidate);
+      else if (inside)
+        twins_.push_back({candidate, touched_[pusher_of_[k]].candidate}), add(candidate);
+    }
 }
 
 void WallTouches::renew(ContactHistories& histories) const {

@@ -11,14 +11,15 @@
 namespace vibrosow {
 
 /// Which of the walls that a grain touches push it, in 2D and in 3D. A wall touches with the point of it that
-/// is nearest to the grain's centre. Where such points of two walls lie nearer to each other than 1e-3 of the grain's
-/// radius, or an end or edge lies so near to a face that is touched, there is one surface: a plate drawn twice, a line
-/// on a floor, an edge that two plates share, a wall's end in the middle of another. Of these the nearest pushes; of
-/// those as near as it (to 1e-9 of the radius) a face before an end, then the first. It does not matter whose walls
-/// they are or how they move: what counts is where they are now.
+/// is nearest to the grain's centre. Two walls are of one surface where a grain's centre sees such points of theirs in
+/// directions less than 10 degrees apart, or where an end or edge lies nearer than 1e-3 of the grain's radius to a face
+/// that is touched: a plate drawn twice, lines that a curve was drawn as, a line on a floor, an edge that two plates
+/// share, a wall's end in the middle of another. Walls that are each of one surface with the next are so together, and
+/// the nearest of them pushes, as it would of a curve; of those as near as it (to 1e-9 of the radius) a face before an
+/// end, then the first. It does not matter whose walls they are or how they move: what counts is where they are now.
 ///
-/// Walls that lie on one that pushes share its history, so that springs go on where it ends and they do not, or where
-/// a gate among them opens.
+/// Walls of the surface of one that pushes share its history, so that springs go on where it ends and they do not, or
+/// where a gate among them opens.
 class WallTouches {
  public:
   /// A wall that a grain touches: `candidate` of the range that is looked through.
@@ -54,12 +55,17 @@ class WallTouches {
   void add(std::size_t candidate) { touches_[candidate] = 1; }
   template <class FromWall>
   void choose(double radius, FromWall from_wall);
-  void replace(std::size_t pushing, const Touch& by, std::size_t first_twin);
+  /// Sets `sorted_`: the nearest first.
+  void sort_by_distance(double radius);
+  /// From `pusher_of_`.
+  void take_chosen();
 
   std::size_t first_ = 0;
   std::vector<unsigned char> touches_;  // by candidate: whether it pushes or lies on one that does
   std::vector<Touch> touched_;          // by one grain
-  std::vector<Touch> pushing_;          // of these
+  std::vector<std::size_t> sorted_;     // their indices
+  std::vector<std::size_t> pusher_of_;  // index of the one that pushes in the place of each, which may be itself
+  std::vector<Touch> pushing_;
   std::vector<Twin> twins_;             // of all grains
 };
 
@@ -84,31 +90,23 @@ void WallTouches::push_each(std::span<const WallCandidate> candidates, std::span
 /// Of what is `touched_`, sets what is `pushing_`.
 template <class FromWall>
 void WallTouches::choose(double radius, FromWall from_wall) {
-  constexpr double same_place = 1e-3, as_near = 1e-9;  // of the radius
-  const std::size_t first_twin = twins_.size();
-  const auto is_on = [&](const Touch& one, const Touch& other) {
-    const double distance2 =
-        other.inside && !one.inside ? from_wall(other.candidate, one.apart) : (one.apart - other.apart).squaredNorm();
-    return distance2 <= same_place * same_place * radius * radius;
+  constexpr double same_place = 1e-3;                 // of the radius
+  constexpr double same_direction = 0.9848077530122;  // cosine of 10 degrees
+  const auto are_one = [&](const Touch& one, const Touch& other) {
+    if (one.apart.dot(other.apart) >= same_direction * one.distance * other.distance) return true;
+    if (one.inside == other.inside) return false;
+    const Touch &face = one.inside ? one : other, &end = one.inside ? other : one;
+    return from_wall(face.candidate, end.apart) <= same_place * same_place * radius * radius;
   };
-  const auto is_known = [&](const Touch& one) {
-    for (const Touch& other : pushing_) {
-      if (!is_on(one, other) || other.distance > one.distance + as_near * radius) continue;
-      if (one.inside) twins_.push_back({one.candidate, other.candidate});
-      return true;
-    }
-    return false;
-  };
-  pushing_.clear();
-  for (const bool inside : {true, false})
-    for (const Touch& one : touched_) {
-      if (one.inside != inside || is_known(one)) continue;
-      for (std::size_t k = pushing_.size(); k-- > 0;)
-        if (is_on(one, pushing_[k])) replace(k, one, first_twin);
-      pushing_.push_back(one);
-    }
-  for (const Touch& one : pushing_) add(one.candidate);
-  for (std::size_t k = first_twin; k < twins_.size(); ++k) add(twins_[k].candidate);
+  sort_by_distance(radius);
+  pusher_of_.resize(touched_.size());
+  for (std::size_t k = 0; k < sorted_.size(); ++k) {
+    const std::size_t one = sorted_[k];
+    pusher_of_[one] = one;
+    for (std::size_t nearer = 0; nearer < k && pusher_of_[one] == one; ++nearer)
+      if (are_one(touched_[one], touched_[sorted_[nearer]])) pusher_of_[one] = pusher_of_[sorted_[nearer]];
+  }
+  take_chosen();
 }
 
 }  // namespace vibrosow

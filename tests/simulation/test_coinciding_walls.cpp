@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/si_units.hpp"
 #include "support/bench.hpp"
 
 namespace vibrosow::coinciding_walls_test {
@@ -63,6 +64,7 @@ std::vector<CoincidingCase> coinciding_cases() {
       {"part_of_the_floor", {drawn_line(0.37, 0, 0.71, 0)}},
       {"little_above", {drawn_line(0.1, half, 0.9, half)}},
       {"little_below", {drawn_line(0.1, -half, 0.9, -half)}},
+      {"behind_the_floor", {drawn_line(0, -4 * half, 1, -4 * half), drawn_line(0, -20 * half, 1, -20 * half)}},
       {"little_askew", {drawn_line(0.4, -1e-4 * 0.1, 0.6, 1e-4 * 0.1)}},
       {"overlapping_pieces", {drawn_line(0.2, 0, 0.6, 0), drawn_line(0.4, 0, 0.8, 0)}, false},
       {"end_in_the_middle", {drawn_line(0.2, 0, 0.5, 0)}},
@@ -122,14 +124,69 @@ TEST_P(CoincidingWalls, AreAsStiffAsOne) {
   }
 }
 
-TEST_P(CoincidingWalls, FurtherApartThanTheToleranceAreTwo) {
-  Bench bench(GetParam());
-  const double apart = 2 * tolerance, depth = 6e-3 * Bench::radius;
-  bench.scene.tray.pieces = {drawn_line(0, -apart, 1, -apart)};
-  bench.place(0.5, Bench::radius - depth);
-  const double force = force_on(bench.start(1e-6), 0).y();
+/// Pressed in at a fold of the floor by `angle`, which rises on both sides of the middle, over what one wall gives.
+double force_at_a_fold(double angle, Space space) {
+  Bench bench(space);
+  const double rise = std::tan(0.5 * angle) * 0.3, depth = 6e-3 * Bench::radius;
+  bench.scene.tray.pieces = {drawn_line(0.2, rise, 0.5, 0), drawn_line(0.5, 0, 0.8, rise)};
+  bench.scene.tray.box = false;
+  bench.place(0.5, (Bench::radius - depth) / std::cos(0.5 * angle));
   const double stiffness = Bench::mass * standard_gravity / (1e-4 * Bench::radius);
-  EXPECT_NEAR(force / (stiffness * depth), 1 + (depth - apart) / depth, 1e-9);
+  return force_on(bench.start(1e-6), 0).y() / (stiffness * depth * std::cos(0.5 * angle));
+}
+
+TEST_P(CoincidingWalls, InDirectionsFurtherApartThanTenDegreesAreTwo) {
+  EXPECT_NEAR(force_at_a_fold(9.9 * degree, GetParam()), 1, 1e-9);
+  EXPECT_NEAR(force_at_a_fold(10.1 * degree, GetParam()), 2, 1e-9);
+}
+
+TEST_P(CoincidingWalls, OneBehindTheOtherPushAsTheNearer) {
+  for (const double apart : {2e-3, 1e-2, 5e-2}) {
+    Bench bench(GetParam());
+    bench.scene.tray.pieces = {drawn_line(0, -apart * Bench::radius, 1, -apart * Bench::radius)};
+    bench.place(0.5, 0.9 * Bench::radius);
+    const double stiffness = Bench::mass * standard_gravity / (1e-4 * Bench::radius);
+    EXPECT_NEAR(force_on(bench.start(1e-6), 0).y() / (stiffness * 0.1 * Bench::radius), 1, 1e-9) << apart;
+  }
+}
+
+/// Pressed in deep, a ball touches the floor's middle and the end of a line to the right of it, so much above it.
+double push_of_an_end(double above, Space space) {
+  Bench bench(space);
+  bench.scene.tray.pieces = {drawn_line(0.5 + 0.3 * Bench::radius, above * Bench::radius, 0.6, above * Bench::radius)};
+  bench.place(0.5, 0.9 * Bench::radius);
+  return -force_on(bench.start(1e-6), 0).x() / (Bench::mass * standard_gravity / (1e-4 * Bench::radius));
+}
+
+TEST_P(CoincidingWalls, AnEndOnAFloorDoesNotPush) {
+  EXPECT_NEAR(push_of_an_end(0, GetParam()), 0, 1e-12);
+  EXPECT_NEAR(push_of_an_end(0.9e-3, GetParam()), 0, 1e-12);
+  const double distance = std::hypot(0.3, 0.9 - 2e-3);
+  EXPECT_NEAR(push_of_an_end(2e-3, GetParam()), (1 - distance) * Bench::radius * 0.3 / distance, 1e-9);
+}
+
+/// Lines of so many degrees, as a curve is drawn by, about the middle; one of them lies at the bottom.
+std::vector<WallPiece> chords(double radius, double angle) {
+  std::vector<WallPiece> lines;
+  const auto at = [&](int k) {
+    const double turned = (k - 0.5) * angle;
+    return Eigen::Vector2d(0.5 + radius * std::sin(turned), 0.5 - radius * std::cos(turned));
+  };
+  for (int k = -20; k <= 20; ++k) lines.push_back(drawn_line(at(k).x(), at(k).y(), at(k + 1).x(), at(k + 1).y()));
+  return lines;
+}
+
+TEST_P(CoincidingWalls, LinesOfACurvePushAsItDoesHoweverFineTheyAre) {
+  for (const double radius : {0.05, 0.2, 0.4})
+    for (const double angle : {0.1, 0.3, 1.0, 3.0}) {
+      Bench bench(GetParam());
+      bench.scene.tray.pieces = chords(radius, angle * degree), bench.scene.tray.box = false;
+      bench.scene.contact.wall.restitution = 0.5;
+      const double bottom = 0.5 - radius * std::cos(0.5 * angle * degree);
+      const ImpactResult hit = wall_impact(bench, 0.4, 0, bench.contact_time() / 200, 0, 2.37,
+                                           {{0.5, bottom, 0.5}, {0, 1, 0}, {1, 0, 0}});
+      EXPECT_NEAR(hit.vy / 0.4, 0.5, 0.005) << radius << " m by " << angle << " degrees";
+    }
 }
 
 /// Pulled down and to the right, a ball slides and rolls over walls with springs; where it is and how fast, for a
