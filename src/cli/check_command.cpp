@@ -128,6 +128,16 @@ std::string fill_text(const Vessel& vessel, const Scene& scene) {
                      height_of_fill(vessel, scene.lots, scene.space) * 1e3);
 }
 
+std::string rain_text(const Rain& rain, const Scene& scene) {
+  std::string text = fmt::format("rain of {:.6g} seeds/s", rain.rate);
+  if (const auto factor = scene.space == Space::two_dimensional ? slices_of_tray(scene) : std::nullopt)
+    text += fmt::format(" in the slice, {:.4g} of the whole tray,", rain.rate * *factor);
+  text += fmt::format(" from {:.1f} mm above its floor", rain.height * 1e3);
+  if (rain.start > 0) text += fmt::format(", from {:.6g} s on", rain.start);
+  if (rain.stop < scene.run.duration) text += fmt::format(", until {:.6g} s", rain.stop);
+  return text;
+}
+
 void print_vessel(const Vessel& vessel, const Scene& scene) {
   const Space space = scene.space;
   const double mm = 1e3;
@@ -149,8 +159,7 @@ void print_vessel(const Vessel& vessel, const Scene& scene) {
         fmt::format("tilted by {:.4g} degree, {} end up; its walls, holes and pieces are tilted with it, gravity and "
                     "the direction of its motion are not: 0 degree is level, 90 degree straight up",
                     std::abs(vessel.tilt) * 180 / std::numbers::pi, vessel.tilt > 0 ? "right" : "left")));
-  if (vessel.rain)
-    print("  rain of {:.6g} seeds/s from {:.1f} mm above its floor\n", vessel.rain->rate, vessel.rain->height * 1e3);
+  if (vessel.rain) print("  {}\n", rain_text(*vessel.rain, scene));
 }
 
 /// How many slices the tray is taken for, and how dense a bed that means.

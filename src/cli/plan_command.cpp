@@ -66,8 +66,8 @@ PlannedLot lot_of(const std::string& crop, const std::string& thousand_grain_wei
   planned.sown.lot = read_crop_lot(crop, "--crop");
   if (!thousand_grain_weight.empty()) {
     const double mass = quantity_option("--tkw", thousand_grain_weight, Dimension::seed_mass, 1e-6, 10, "45 g") / 1000;
+    planned.crop_mass = mean_mass(planned.sown.lot);
     planned.sown.lot = of_mass(planned.sown.lot, mass);
-    planned.own_mass = true;
   }
   return planned;
 }

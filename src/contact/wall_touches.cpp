@@ -23,7 +23,8 @@ void WallTouches::sort_by_distance(double radius) {
       return touched_[k].distance <= least + as_near * radius && touched_[k].inside == inside;
     };
     auto next = std::find_if(from, sorted_.end(), [&](std::size_t k) { return is_next(k, true); });
-    if (next == sorted_.end()) next = std::find_if(from, sorted_.end(), [&](std::size_t k) { return is_next(k, false); });
+    if (next == sorted_.end())
+      next = std::find_if(from, sorted_.end(), [&](std::size_t k) { return is_next(k, false); });
     std::rotate(from, next, next + 1);  // the others stay in their order
   }
 }

@@ -66,7 +66,7 @@ class WallTouches {
   std::vector<std::size_t> sorted_;     // their indices
   std::vector<std::size_t> pusher_of_;  // index of the one that pushes in the place of each, which may be itself
   std::vector<Touch> pushing_;
-  std::vector<Twin> twins_;             // of all grains
+  std::vector<Twin> twins_;  // of all grains
 };
 
 template <class TouchOf, class RadiusOf, class FromWall, class Push>

@@ -29,14 +29,15 @@ double read_width(const Table& table, const std::string& key, const TomlValue& v
   const auto* text = value.get<std::string>();
   const auto* typed = value.get<Quantity>();
   if (text == nullptr && typed == nullptr)
-    table.fail(key, fmt::format("must be {}, in quotes, not {}", expected_width, shown_value));
+    table.fail_to_read(key, fmt::format("must be {}, in quotes, not {}", expected_width, shown_value));
   double width = 0;
   try {
     const Quantity quantity = typed != nullptr ? *typed : split_quantity(*text);
     const bool counted = quantity.unit == "diameters" || quantity.unit == "diameter";
     width = rounded(counted ? quantity.number * diameter : in_si(quantity, Dimension::length));
   } catch (const UnitError& error) {
-    table.fail(key, fmt::format("{} is not a {}; expected {}: {}", shown_value, key, expected_width, error.what()));
+    table.fail_to_read(key,
+                       fmt::format("{} is not a {}; expected {}: {}", shown_value, key, expected_width, error.what()));
   }
   if (!(width >= shortest && width <= longest)) {
     table.fail(key, fmt::format("{} is out of range, which is from 0.001 mm to 100 m", shown_value));

@@ -427,6 +427,7 @@ Contact read_contacts_of_crops(Table& table, Table& seeds, std::vector<SeedLot>&
     require_shared_values(table, own.front(), own.back(), lots[i]);
   }
   Contact contact = own.front();
+  contact.model.of_crops = true;
   join_surfaces(own, find_pairs(table, lots), contact);
   give_lots_their_materials(own, lots);
   return contact;
@@ -454,7 +455,7 @@ Contact read_contact(Table table, Table seeds, std::vector<SeedLot>& lots) {
   if (crops_tell || table.text("model") == of_crop) return read_contacts_of_crops(table, seeds, lots);
   const PresetFile model = use_preset(table, "model", "contacts");
   Contact contact = read_own(table, seeds, lots);
-  contact.model = model;
+  contact.model = {model};
   return contact;
 }
 

@@ -81,13 +81,18 @@ std::vector<ClumpDisc> read_row(const Table& seeds, ShapeName shape, double leng
   return discs;
 }
 
-/// In 3D: a thickness that is not given is the width.
+/// The width where it is not given; in 2D it makes no seed, and is to be right all the same.
+double read_thickness(Table& seeds, double width) {
+  const double thickness = seeds.quantity("thickness", Dimension::length, smallest, largest).value_or(width);
+  if (thickness > width)
+    seeds.fail("thickness", fmt::format("{:g} mm is more than the width, {:g} mm", thickness * 1e3, width * 1e3));
+  return thickness;
+}
+
+/// In 3D.
 std::vector<ClumpDisc> read_solid_row(Table& seeds, ShapeName shape, double length) {
   const double width = read_width(seeds, length);
-  const double thickness = seeds.quantity("thickness", Dimension::length, smallest, largest).value_or(width);
-  if (thickness > width) {
-    seeds.fail("thickness", fmt::format("{:g} mm is more than the width, {:g} mm", thickness * 1e3, width * 1e3));
-  }
+  const double thickness = read_thickness(seeds, width);
   if (thickness < thinnest * width) {
     seeds.fail(
         "thickness",
@@ -142,7 +147,7 @@ void read_shape(Table& seeds, ShapeName shape, double size, Space space, SeedLot
   if (shape == ShapeName::disc && space != Space::two_dimensional)
     seeds.fail("shape", "is for 2D; with space = \"3d\" it is a \"ball\"");
   if (shape == ShapeName::elongated || shape == ShapeName::drop) {
-    if (space == Space::two_dimensional) seeds.skip("thickness");
+    if (space == Space::two_dimensional) read_thickness(seeds, read_width(seeds, size));
     make_clump(lot, space == Space::two_dimensional ? read_row(seeds, shape, size) : read_solid_row(seeds, shape, size),
                space);
   }
@@ -256,6 +261,8 @@ std::string mass_key(const Table& seeds) {
 
 double read_mass(Table& seeds, const SeedLot& lot) {
   for (const std::string& key : mass_keys) seeds.skip(key);
+  for (const char* key : {"tkw", "tgw", "TKW", "TGW"})
+    if (seeds.has(key)) seeds.fail(key, "is written thousand_grain_weight");
   const std::string key = mass_key(seeds);
   if (key == "mass") return seeds.required_quantity(key, Dimension::seed_mass, 1e-12, 1e3);
   if (key == "thousand_grain_weight") return read_thousand_grain_weight(seeds) / size_moment(lot, mass_power(lot));
@@ -276,6 +283,24 @@ void reject_thousand_grain_mass(const Table& seeds, const SeedLot& lot) {
                          lot.mass * 1e3, *density, lot.mass * 1e3));
 }
 
+/// Whether mass or size are written over a crop's.
+bool has_own_density(const Table& seeds) {
+  const auto is_here = [&](const std::string& key) { return seeds.has_here(key); };
+  const std::vector<std::string> size_keys = {"shape",     "diameter", "length", "width",
+                                              "thickness", "distance", "discs",  "sizes"};
+  return std::ranges::any_of(mass_keys, is_here) || std::ranges::any_of(size_keys, is_here);
+}
+
+/// kg/m3; none where the crop alone tells no seed.
+std::optional<double> density_of_crop(const PresetFile& crop, const Table& seeds, Space space) {
+  try {
+    Table alone = read_preset(crop, seeds, "crop");
+    return seed_density(read_lot(alone, crop.name, space));
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 double read_thousand_grain_weight(Table& seeds) {
@@ -292,7 +317,7 @@ BulkProperties read_bulk_properties(Table& seeds) {
 SeedLot read_lot(Table& seeds, const std::string& name, Space space) {
   SeedLot lot;
   lot.name = name;
-  lot.crop = use_preset(seeds, "crop", "crops");
+  lot.crop = {use_preset(seeds, "crop", "crops")};
   lot.contact = named_preset(seeds, "contact", "contacts");
   const auto chosen = seeds.choice("shape", shape_names);
   const ShapeName shape = chosen ? static_cast<ShapeName>(*chosen) : ShapeName::ball;
@@ -307,6 +332,7 @@ SeedLot read_lot(Table& seeds, const std::string& name, Space space) {
   lot.mass = read_mass(seeds, lot);
   reject_thousand_grain_mass(seeds, lot);
   read_bulk_properties(seeds);  // they are known and in range, and change no scene
+  if (lot.crop.is_known() && has_own_density(seeds)) lot.crop.seed_density = density_of_crop(lot.crop, seeds, space);
   return lot;
 }
 

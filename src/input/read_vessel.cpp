@@ -283,18 +283,18 @@ void check_periodic_across(const Table& table, const Vessel& vessel, const Vesse
   if (periodic) check_period(table, "front_and_back", "tray", *vessel.depth, diameter, "deep");
 }
 
-/// What a vessel has in 3D alone; in 2D these keys are known and count for nothing.
+/// What a vessel has in 3D alone; in 2D it is to be right, and counts for nothing.
 void read_space(Table& table, Space space, const Vessel* tray, Vessel& vessel) {
-  if (space == Space::two_dimensional) {
-    for (const char* key : {"plan", "front_and_back"}) table.skip(key);
-    if (tray != nullptr) table.skip("front");
-    return;
-  }
-  constexpr Plan plans[] = {Plan::rectangle, Plan::round};
-  vessel.plan = plans[table.choice("plan", {"rectangle", "round"}).value_or(0)];
-  const bool round = vessel.plan == Plan::round;
+  const bool round = table.choice("plan", {"rectangle", "round"}).value_or(0) == 1;
   if (round && vessel.depth && *vessel.depth != vessel.length)
     table.fail("depth", "contradicts length: a round vessel is as deep as it is long, its diameter");
+  if (space == Space::two_dimensional) {
+    read_sides(table, "front_and_back", Sides::walls);
+    if (tray != nullptr) table.quantity("front", Dimension::length, -longest, longest);
+    if (round) table.files()->note(table.where("plan") + ": in 2D a round vessel is a slice of a rectangular one");
+    return;
+  }
+  vessel.plan = round ? Plan::round : Plan::rectangle;
   if (round) vessel.depth = vessel.length;
   if (!vessel.depth && tray != nullptr) vessel.depth = tray->depth;
   if (!vessel.depth) table.fail("depth", "is missing; with space = \"3d\" a tray has a depth, from front to back");

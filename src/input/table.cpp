@@ -38,6 +38,7 @@ bool is_list_of_tables(const TomlValue::List& list) {
          std::ranges::all_of(list, [](const TomlValue& one) { return one.get<TomlTable>() != nullptr; });
 }
 
+/// `key`: all of it, from the file's beginning.
 std::string not_a_table(const std::string& key, const TomlValue& value) {
   const auto* list = value.get<TomlValue::List>();
   if (list != nullptr && is_list_of_tables(*list))
@@ -148,7 +149,8 @@ struct Table::State {
     if (here == nullptr) return behind;
     const TomlTable* table = here->value.get<TomlTable>();
     if (table == nullptr)
-      throw InputError(fmt::format("{}: {}: {}", origin(key), joined(prefix, key), not_a_table(key, here->value)));
+      throw InputError(
+          fmt::format("{}: {}: {}", origin(key), joined(prefix, key), not_a_table(joined(prefix, key), here->value)));
     auto state = std::make_shared<State>(document, table, joined(prefix, key));
     state->fallback = behind;
     children.emplace(key, state);
@@ -229,7 +231,7 @@ std::optional<std::string> Table::text(const std::string& key) {
   const TomlValue* found = state_->find(key);
   if (found == nullptr) return std::nullopt;
   const auto* text = found->get<std::string>();
-  if (text == nullptr) fail(key, fmt::format("must be a text in quotes, not {}", message_text(*found)));
+  if (text == nullptr) fail_to_read(key, fmt::format("must be a text in quotes, not {}", message_text(*found)));
   return *text;
 }
 
@@ -244,7 +246,7 @@ std::optional<bool> Table::boolean(const std::string& key) {
   const TomlValue* found = state_->find(key);
   if (found == nullptr) return std::nullopt;
   const bool* flag = found->get<bool>();
-  if (flag == nullptr) fail(key, fmt::format("must be true or false, not {}", message_text(*found)));
+  if (flag == nullptr) fail_to_read(key, fmt::format("must be true or false, not {}", message_text(*found)));
   return *flag;
 }
 
@@ -262,9 +264,10 @@ double number_of(const Table& table, const std::string& key, const TomlValue& fo
   std::optional<double> value;
   if (const auto* whole = found.get<std::int64_t>()) value = static_cast<double>(*whole);
   if (const auto* number = found.get<double>()) value = *number;
-  if (!value || !(*value >= least && *value <= most))
-    table.fail(key, fmt::format("must be a number from {:g} to {:g}, without a unit, not {}", least, most,
-                                message_text(found)));
+  const std::string message =
+      fmt::format("must be a number from {:g} to {:g}, without a unit, not {}", least, most, message_text(found));
+  if (!value) table.fail_to_read(key, message);
+  if (!(*value >= least && *value <= most)) table.fail(key, message);
   return *value;
 }
 
@@ -316,10 +319,10 @@ double in_si(const Table& table, const std::string& key, const TomlValue& value,
     if (const auto* text = value.get<std::string>())
       return parse_quantity(*text, dimension, example_at(table.full_key(key), dimension));
   } catch (const UnitError& error) {
-    table.fail(key, error.what());
+    table.fail_to_read(key, error.what());
   }
-  table.fail(key, fmt::format("must be a quantity with its unit in quotes, {}, not {}",
-                              expected_at(table.full_key(key), dimension), message_text(value)));
+  table.fail_to_read(key, fmt::format("must be a quantity with its unit in quotes, {}, not {}",
+                                      expected_at(table.full_key(key), dimension), message_text(value)));
 }
 
 /// Of a quantity that was read.
@@ -459,6 +462,10 @@ std::filesystem::path Table::directory(const std::string& key) const {
 void Table::fail(const std::string& key, const std::string& message) const {
   if (!has(key)) state_->check_misspelled(key);
   throw InputError(where(key) + ": " + message);
+}
+
+void Table::fail_to_read(const std::string& key, const std::string& message) const {
+  throw UnreadableValue(where(key) + ": " + message);
 }
 
 void Table::reject_keys_other_than(const std::vector<std::string>& known) const {

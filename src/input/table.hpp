@@ -76,6 +76,7 @@ class Table {
   /// Throws InputError "FILE:LINE: KEY: message". A key that is not written but nearly so is called
   /// misspelled instead.
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
+  [[noreturn]] void fail_to_read(const std::string& key, const std::string& message) const;  // with UnreadableValue
   /// At once, for a table whose misspelled key would otherwise show as something missing elsewhere.
   void reject_keys_other_than(const std::vector<std::string>& known) const;
   /// Also in the tables that were read from this one, and in fallbacks.

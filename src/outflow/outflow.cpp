@@ -190,7 +190,8 @@ std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const Measur
   };
   if (run.outside_the_model) add(outside_the_model);
   if (run.tray_empty_since >= 0 && run.tray_empty_since < window.to)
-    add(ran_dry, fmt::format("ran dry at {:.3g} s", run.tray_empty_since));
+    add(ran_dry, run.balance.put_in > 0 ? fmt::format("ran dry at {:.3g} s", run.tray_empty_since)
+                                        : std::string("no seed was put in"));
   else if (const auto drained_doubt = doubt_if_drained(run))
     doubts.push_back(*drained_doubt);
   if (!run.end_reason.empty() && run.balance.inside > 0)

@@ -41,10 +41,15 @@ std::string millimetres(double length) {
 
 void warn_of_density(const SeedLot& lot, Warnings& warnings) {
   constexpr double least = 100, most = 5000;  // kg/m3, of anything that is sown
-  const std::optional<double> density = seed_density(lot);
-  if (!density || (*density >= least && *density <= most)) return;
-  warnings.push_back(fmt::format("seeds.{}.mass: {:.4g} mg is a density of {:.3g} kg/m3; seeds have {:g} to {:g} kg/m3",
-                                 lot.name, lot.mass * 1e6, *density, least, most));
+  constexpr double far = 1.2;                 // times a crop's own
+  const std::optional<double> density = seed_density(lot), of_crop = lot.crop.seed_density;
+  if (!density) return;
+  const std::string begin = fmt::format("seeds.{}: its mass and size make seeds of {:.3g} kg/m3", lot.name, *density);
+  if (*density < least || *density > most)
+    warnings.push_back(fmt::format("{}; seeds have {:g} to {:g} kg/m3", begin, least, most));
+  else if (of_crop && (*density > far * *of_crop || *density < *of_crop / far))
+    warnings.push_back(fmt::format("{}, those of crop \"{}\" have {:.3g}: give a mass and a size that go together",
+                                   begin, lot.crop.name, *of_crop));
 }
 
 /// Thickness of a lot's largest seed, the least width that it passes.
@@ -98,6 +103,8 @@ double most_seeds(const Scene& scene, const Vessel& vessel, double height) {
 void warn_of_rain(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
   if (!vessel.rain) return;
   const Rain& rain = *vessel.rain;
+  if (const double seeds = rained_seeds(rain, scene.run.duration); seeds < 3)
+    warnings.push_back(fmt::format("{}.rain: brings {:.2g} seeds on average in the whole run", vessel.name, seeds));
   const double diameter = mean_diameter(scene);
   const double rows = scene.space == Space::two_dimensional ? 1 : std::floor(*vessel.depth / diameter);
   const double run_in_parallel = rows * (std::floor((rain.to - rain.from) / diameter) + 1);
@@ -279,6 +286,19 @@ void warn_of_bulk_density(const Scene& scene, Warnings& warnings) {
       millimetres(slice_thickness(scene.lots)), implied, 100 * implied / *solid, 100 * loosest, 100 * closest));
 }
 
+/// Two keys may be enough for a [contact] that stands alone, and what its writer left to a crop's model is lost.
+void warn_of_models_not_used(const Scene& scene, Warnings& warnings) {
+  const Contact& contact = scene.contact;
+  if (contact.model.is_known() || contact.model.of_crops || contact.law == Law::hertz_viscous) return;
+  if (contact.seed.restitution < 1) return;
+  for (const SeedLot& lot : scene.lots)
+    if (lot.contact.is_known())
+      warnings.push_back(fmt::format(
+          "contact: gives a stiffness and a friction or a law of its own, so {}, the contact model of seeds.{}, is not "
+          "used: seeds rebound with restitution 1{}; model = \"crop\" keeps the rest of it",
+          lot.contact.name, lot.name, contact.rolling == Rolling::none ? " and roll without resistance" : ""));
+}
+
 bool has_override(const Scene& scene, int lot, int other) {
   return std::ranges::any_of(scene.contact.overrides,
                              [&](const SurfaceOverride& pair) { return pair.lot == lot && pair.other == other; });
@@ -316,6 +336,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_mixture(scene, warnings);
   warn_of_bulk_density(scene, warnings);
   warn_of_narrow_holes(scene.tray, scene.lots, warnings);
+  warn_of_models_not_used(scene, warnings);
   warn_of_foreign_contacts(scene, warnings);
   warn_of_standing_liquid(scene, warnings);
   warn_of_rows(scene, scene.tray, warnings);

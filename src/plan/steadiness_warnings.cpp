@@ -22,7 +22,7 @@ class Changes {
       if (is_later(vessel_.holes[k].open_at))
         add("holes.open_at", fmt::format("hole {} opens at {:.3g} s", k + 1, vessel_.holes[k].open_at),
             vessel_.holes[k].open_at);
-    if (vessel_.rain && is_within(vessel_.rain->start))
+    if (vessel_.rain && is_later(vessel_.rain->start))
       add("rain.start", fmt::format("it rains from {:.3g} s on", vessel_.rain->start), vessel_.rain->start);
     if (vessel_.rain && is_within(vessel_.rain->stop))
       add("rain.stop", fmt::format("it rains until {:.3g} s", vessel_.rain->stop), vessel_.rain->stop);

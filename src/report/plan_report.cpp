@@ -12,6 +12,7 @@
 #include "input/toml_value.hpp"
 #include "report/expected_report.hpp"
 #include "report/terminal_text.hpp"
+#include "scene/seed_lot.hpp"
 #include "scene/si_units.hpp"
 
 namespace vibrosow {
@@ -341,7 +342,7 @@ std::string lot_text(const PlannedLot& planned, const std::string& name) {
   const std::string crop = is_file ? std::filesystem::absolute(planned.crop).lexically_normal().string() : planned.crop;
   const SeedLot& lot = planned.sown.lot;
   std::string text = fmt::format("[seeds.{}]\n", name);
-  if (!planned.own_mass) return text + fmt::format("crop = {}\n", toml_text({crop}));
+  if (!planned.crop_mass) return text + fmt::format("crop = {}\n", toml_text({crop}));
   text += fmt::format("mass = \"{:.6g} mg\"\n", lot.mass / milligram);
   if (lot.shape == Shape::ball)
     return text + fmt::format("shape = \"ball\"\ndiameter = {}\n", in_millimetres(lot.diameter));
@@ -418,18 +419,29 @@ Columns<WeighedRow> weighed_columns() {
   };
 }
 
-std::string weighed_row_text(const WeighedRow& row) {
+std::string weighed_row_text(const WeighedRow& row, bool is_only) {
   const WeighedTray& weighed = row.weighed;
   std::string text = fmt::format("weighed {} g/s at {:.4g} Hz, {} times the {} g/s of the table",
                                  to_digits(weighed.mass_rate / gram, 3), weighed.tray.frequency,
                                  to_digits(weighed.mass_rate / row.predicted, 3), to_digits(row.predicted / gram, 3));
   if (row.surprise < surprising)
     text += fmt::format(": this contradicts {} (so far off in {} % of cases): weigh again, and look at the unit",
-                        "the other rows and what the model errs by", two_digit_percent(row.surprise));
+                        is_only ? "what the model errs by" : "the other rows and what the model errs by",
+                        two_digit_percent(row.surprise));
   if (weighed.repeats_scatter > contradicting_scatter)
     text += fmt::format(": its repeats scatter by {} %, so they contradict each other: look at each, and weigh again",
                         two_digit_percent(weighed.repeats_scatter));
   return text;
+}
+
+/// Of seeds so much heavier or lighter than the crop's that a unit may be wrong; else empty.
+std::string mass_doubt(const PlannedLot& lot) {
+  constexpr double far = 2;
+  if (!lot.crop_mass) return "";
+  const double times = mean_mass(lot.sown.lot) / *lot.crop_mass;
+  if (times <= far && times >= 1 / far) return "";
+  return fmt::format(" (doubtful: {} times as heavy as the crop's own, of {} g a thousand; look at the unit)",
+                     to_digits(times, 2), to_digits(*lot.crop_mass * 1e6, 3));
 }
 
 }  // namespace
@@ -437,10 +449,11 @@ std::string weighed_row_text(const WeighedRow& row) {
 std::vector<std::string> need_sentences(const PlanSource& source) {
   const SowingTask& task = source.plan.task;
   if (source.lots.size() == 1)
-    return {fmt::format("{}: {}", source.lots.front().crop, seed_text(task.seed)), rate_text(source)};
+    return {fmt::format("{}: {}{}", source.lots.front().crop, seed_text(task.seed), mass_doubt(source.lots.front())),
+            rate_text(source)};
   std::vector<std::string> sentences;
   for (const PlannedLot& lot : source.lots)
-    sentences.push_back(fmt::format("{}: {}; {}", lot.crop, seed_text(seed_of(lot)),
+    sentences.push_back(fmt::format("{}: {}{}; {}", lot.crop, seed_text(seed_of(lot)), mass_doubt(lot),
                                     per_area_text(lot.sown.sowing_rate, lot.sown.seeds_per_area())));
   sentences.push_back(fmt::format("together {}, looked up as {}", rate_text(source), seed_text(task.seed)));
   return sentences;
@@ -464,7 +477,7 @@ std::vector<std::string> weighed_sentences(const PlanSource& source, int rows, c
                   to_digits(task.sowing_rate / kilogram_per_hectare, 3), to_digits(task.pace.row_spacing * 100, 3),
                   speed_text(task.pace.speed), to_digits(plan.needed / gram, 3))};
   const auto add = [&](std::string sentence) { sentences.push_back(std::move(sentence)); };
-  for (const WeighedRow& row : plan.rows) add(weighed_row_text(row));
+  for (const WeighedRow& row : plan.rows) add(weighed_row_text(row, plan.rows.size() == 1));
   const auto spread = [](const FactorRange& range) {
     return fmt::format("{} to {} %", two_digit_percent(range.low), two_digit_percent(range.high));
   };

@@ -13,9 +13,9 @@ namespace vibrosow {
 
 /// A crop of a plan.
 struct PlannedLot {
-  std::string crop;       // as it was asked for
-  SownLot sown;           // its seeds and their part of the rate
-  bool own_mass = false;  // their mass was given beside the crop
+  std::string crop;                   // as it was asked for
+  SownLot sown;                       // its seeds and their part of the rate
+  std::optional<double> crop_mass{};  // kg, of a seed of the crop, where another was given beside it
 };
 
 /// A plan and what was asked for, as far as a reader is told of it.

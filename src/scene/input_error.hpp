@@ -14,4 +14,10 @@ class InputError : public std::runtime_error {
   explicit InputError(const std::string& message) : std::runtime_error(printable(message)) {}
 };
 
+/// A value that cannot be read at all, such as a length without a unit, whatever else is asked for.
+class UnreadableValue : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 }  // namespace vibrosow

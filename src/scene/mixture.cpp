@@ -9,11 +9,12 @@
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
-namespace {
 
 double rained_seeds(const Rain& rain, double duration) {
   return rain.rate * std::max(0.0, std::min(rain.stop, duration) - rain.start);
 }
+
+namespace {
 
 /// What a lot's table of sizes is of, m, of a seed of its diameter: of a dipole the discs' diameter, of another clump
 /// its longest measure.

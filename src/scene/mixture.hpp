@@ -46,6 +46,9 @@ std::vector<LotShare> lot_shares(const Scene& scene, const std::vector<DrawnSeed
 /// Of every fill and lot with a table of sizes, size by size.
 std::vector<LotShare> size_shares(const Scene& scene, const std::vector<DrawnSeeds>& drawn);
 
+/// On average, while a run of `duration` (s) lasts.
+double rained_seeds(const Rain& rain, double duration);
+
 /// How far a share is from what was asked for, by number or by mass, whichever is farther, in parts of that; beyond
 /// `far_off` it is worth a word.
 double off_by(const LotShare& share);

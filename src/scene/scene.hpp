@@ -36,6 +36,16 @@ struct PresetFile {
   bool operator==(const PresetFile&) const { return true; }
 };
 
+/// A scene's contact model; none where each lot has that of its crop.
+struct ModelFile : PresetFile {
+  bool of_crops = false;
+};
+
+/// A lot's crop.
+struct CropFile : PresetFile {
+  std::optional<double> seed_density{};  // kg/m3, by its own mass and size, where the lot has others
+};
+
 /// What a vessel in 2D says of its slots in 3D, where they need not reach from front to back: no run depends on it, but
 /// what its rates stand for does.
 struct SlotsIn3d {
@@ -80,7 +90,8 @@ struct SeedLot {
   std::optional<double> shell_compression{};  // these three: instead of the contact's
   std::optional<double> youngs_modulus{};     // Pa
   std::optional<double> poisson_ratio{};
-  PresetFile crop{}, contact{};  // the contact model that the crop names as its own
+  CropFile crop{};
+  PresetFile contact{};  // the contact model that the crop names as its own
   bool operator==(const SeedLot&) const = default;
 };
 
@@ -126,7 +137,7 @@ struct Contact {
   double drag = 0;               // kg/s, paper A's mu
   bool rotation = true;
   FrictionArm friction_arm = FrictionArm::contact_point;
-  PresetFile model{};  // none where each lot has that of its crop
+  ModelFile model{};
   bool operator==(const Contact&) const = default;
 };
 

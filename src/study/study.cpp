@@ -171,6 +171,8 @@ class Scenes {
         if (is_new) study_.scenes.push_back(scene);
         layout.scene = place->second;
         layout.drill = drill;
+      } catch (const UnreadableValue&) {
+        throw;
       } catch (const InputError& error) {
         layout.invalid = error.what();
       }

@@ -88,7 +88,7 @@ TEST_F(CalibrationAnswerOf, SaysWhatIsUnlikelyInItsScenes) {
   design_.conditions.resize(2);
   design_.runs = {run, run, run};
   design_.runs[2].condition = 1;
-  EXPECT_THAT(doubts(), ElementsAre(HasSubstr("seeds.lead.mass")));
+  EXPECT_THAT(doubts(), ElementsAre(HasSubstr("seeds.lead: its mass and size")));
 }
 
 TEST_F(CalibrationAnswerOf, LotsWithContactsOfTheirOwnGetNoFileForAll) {
@@ -101,7 +101,7 @@ TEST_F(CalibrationAnswerOf, LotsWithContactsOfTheirOwnGetNoFileForAll) {
   design_.runs = {run};
   EXPECT_TRUE(answer().lots_have_own_contacts);
   EXPECT_FALSE(answer().gives_a_contact);
-  design_.runs[0].scene.contact.model = {"mine", "mine.toml"};
+  design_.runs[0].scene.contact.model = {{"mine", "mine.toml"}};
   EXPECT_TRUE(answer().gives_a_contact) << "all lots have that";
 }
 

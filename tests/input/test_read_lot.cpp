@@ -43,6 +43,25 @@ TEST(ReadLot, ElongatedFromLengthAndWidth) {
   EXPECT_EQ(lot.sizes.kind, Kind::single);
 }
 
+TEST(ReadLot, ThicknessIsToBeRightIn2DToo) {
+  const std::string seed = "shape = 'elongated'\nlength = '7 mm'\nwidth = '3 mm'\nmass = '30 mg'\n";
+  EXPECT_EQ(lot_of(seed + "thickness = '2.5 mm'").discs, lot_of(seed).discs);
+  EXPECT_THROW(lot_of(seed + "thickness = '5 apples'"), InputError);
+  EXPECT_THROW(lot_of(seed + "thickness = '5 mm'"), InputError);
+}
+
+TEST(ReadLot, AThousandGrainWeightByItsShortNameIsNamed) {
+  EXPECT_THAT([] { lot_of("diameter = '4 mm'\ntkw = '190 g'"); },
+              ThrowsMessage<InputError>(HasSubstr("tkw: is written thousand_grain_weight")));
+}
+
+TEST(ReadLot, KnowsTheDensityOfItsCropWhereItHasAnother) {
+  EXPECT_FALSE(lot_of("crop = 'pea'").crop.seed_density);
+  const SeedLot crop = lot_of("crop = 'pea'"), heavy = lot_of("crop = 'pea'\nthousand_grain_weight = '400 g'");
+  EXPECT_EQ(heavy.crop.seed_density, seed_density(crop));
+  EXPECT_EQ(lot_of("crop = 'pea'\ndiameter = '5 mm'").crop.seed_density, seed_density(crop));
+}
+
 TEST(ReadLot, DropsHoldingCircleIsAboutItsCentreOfMass) {
   const SeedLot lot = lot_of("shape = 'drop'\nlength = '12 mm'\nwidth = '6 mm'\nmass = '80 mg'");
   EXPECT_GT(lot.diameter, 12e-3);

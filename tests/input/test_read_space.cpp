@@ -43,6 +43,18 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
+TEST(ReadSpace, WhatIsOf3DAloneIsToBeRightIn2DToo) {
+  const auto in_2d = [](std::string text, const std::string& lines) {
+    return text.replace(text.find("3d"), 2, "2d") + lines;
+  };
+  const std::string deep = head + "depth = '6 cm'\n", filled = "fill = { count = 60 }\n";
+  EXPECT_EQ(refusal(in_2d(deep, filled)), "");
+  EXPECT_THAT(refusal(in_2d(deep, filled + "plan = 'rond'\n")), HasSubstr("tray.plan"));
+  EXPECT_THAT(refusal(in_2d(deep, filled + "plan = 'round'\n")), HasSubstr("tray.depth: contradicts length"));
+  EXPECT_EQ(refusal(in_2d(head, filled + "plan = 'round'\n")), "");
+  EXPECT_THAT(refusal(in_2d(deep, filled + "front_and_back = 'banana'\n")), HasSubstr("tray.front_and_back"));
+}
+
 TEST(ReadSpace, MapsAreProjectionsOrSlices) {
   const auto view = [](const std::string& text) { return read(text).record->view; };
   EXPECT_EQ(view(whole + "[record]\ntimes = '1 s'\n"), MapView::projection);

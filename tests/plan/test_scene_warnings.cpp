@@ -84,18 +84,19 @@ TEST(SceneWarnings, ATableOfTooFewRowsForItsMotion) {
 
 TEST(SceneWarnings, AContactThatIsMadeForOtherSeeds) {
   Scene scene = sound();
-  scene.lots[0].crop = {"wheat", "crops/wheat.toml"};
+  scene.lots[0].crop = {{"wheat", "crops/wheat.toml"}};
   scene.lots[0].contact = {"wheat-steel", "contacts/wheat-steel.toml"};
-  EXPECT_THAT(scene_warnings(scene), IsEmpty()) << "each lot has that of its crop, or values are written out";
-  scene.contact.model = scene.lots[0].contact;
+  scene.contact.model.of_crops = true;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty()) << "each lot has that of its crop";
+  scene.contact.model = {scene.lots[0].contact};
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
-  scene.contact.model = {"pea-steel", "contacts/pea-steel.toml"};
+  scene.contact.model = {{"pea-steel", "contacts/pea-steel.toml"}};
   EXPECT_THAT(scene_warnings(scene),
               ElementsAre(AllOf(HasSubstr("\"pea-steel\" is made for other seeds than seeds.wheat"),
                                 HasSubstr("\"wheat-steel\""))));
-  scene.contact.model = {"contact", "fitted/contact.toml"};
+  scene.contact.model = {{"contact", "fitted/contact.toml"}};
   EXPECT_THAT(scene_warnings(scene), IsEmpty()) << "one that was fitted, or chosen by hand";
-  scene.contact.model = {"pea-steel", "contacts/pea-steel.toml"};
+  scene.contact.model = {{"pea-steel", "contacts/pea-steel.toml"}};
   scene.contact.overrides = {{0, -1, scene.contact.wall}, {0, 0, scene.contact.seed}};
   EXPECT_THAT(scene_warnings(scene), IsEmpty()) << "the seeder gives its pairs itself";
 }
@@ -182,11 +183,37 @@ TEST(SceneWarnings, ABedOfTheSlicesThatCannotBe) {
 TEST(SceneWarnings, DensityThatNoSeedHas) {
   Scene scene = sound();
   scene.lots[0].mass *= 10;
-  EXPECT_THAT(scene_warnings(scene), ElementsAre(StartsWith("seeds.wheat.mass: ")));
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(StartsWith("seeds.wheat: its mass and size make ")));
   scene.lots[0].mass /= 200;
-  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("is a density of 60 kg/m3")));
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("make seeds of 60 kg/m3")));
   scene.lots[0].shape = Shape::disc;  // has no thickness
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+TEST(SceneWarnings, DensityThatTheCropsSeedsHaveNot) {
+  Scene scene = sound();
+  scene.lots[0].crop = {{"wheat", "crops/wheat.toml"}, 1200.0};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.lots[0].mass *= 1.19;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  for (const double times : {1.22, 1 / 1.22}) {
+    scene = sound();
+    scene.lots[0].crop = {{"wheat", "crops/wheat.toml"}, times * 1200};
+    EXPECT_THAT(scene_warnings(scene), ElementsAre(AllOf(StartsWith("seeds.wheat: its mass and size make seeds of 1.2"),
+                                                         HasSubstr("those of crop \"wheat\" have"))));
+  }
+}
+
+TEST(SceneWarnings, ACropsContactModelThatIsNotUsed) {
+  Scene scene = sound();
+  scene.lots[0].contact = {"wheat-steel", "contacts/wheat-steel.toml"};
+  EXPECT_THAT(scene_warnings(scene),
+              ElementsAre(AllOf(StartsWith("contact: gives a stiffness"), HasSubstr("wheat-steel, the contact model"),
+                                HasSubstr("restitution 1 and roll without resistance"))));
+  scene.contact.model.of_crops = true;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.contact.model.of_crops = false, scene.contact.seed.restitution = 0.5;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty()) << "it is written out";
 }
 
 TEST(SceneWarnings, HolesNarrowerThanASeed) {
@@ -247,6 +274,15 @@ TEST(SceneWarnings, RainThatHasNoRoom) {
   scene.tray.rain->rate = 10000;
   scene.tray.rain->from = 0, scene.tray.rain->to = 0.5;
   EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("126 seeds lie side by side")));
+}
+
+TEST(SceneWarnings, RainThatHardlyBringsASeed) {
+  Scene scene = sound();
+  scene.tray.rain = Rain{.rate = 0.2, .to = 0.5, .height = 0.12};
+  EXPECT_THAT(scene_warnings(scene), ElementsAre("tray.rain: brings 2 seeds on average in the whole run"));
+  scene.tray.rain->rate = 40, scene.tray.rain->start = 10;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre("tray.rain: brings 0 seeds on average in the whole run",
+                                                 StartsWith("tray.rain.start: it rains from 10 s on")));
 }
 
 TEST(SceneWarnings, MoreRainThanAClosedTrayHolds) {

@@ -30,7 +30,7 @@ PlanSource source_of(double seeds_per_s) {
   task.seed = planned_seed({balls});
   task.pace = {0.25, 8 * kilometre_per_hour};
   task.sowing_rate = seeds_per_s * task.seed.mass / (task.pace.row_spacing * task.pace.speed);
-  source.lots = {{"balls", {balls, task.sowing_rate}, true}};
+  source.lots = {{"balls", {balls, task.sowing_rate}, 40e-6}};
   source.plan = plan_sowing(task, HoleTable(made_up_records()), {0.2, 5, 1 / 1.1});
   return source;
 }
@@ -62,6 +62,19 @@ TEST(PlanText, LeadsWithTheRisk) {
   EXPECT_THAT(wide, HasSubstr("Such a hole rarely clogs"));
   EXPECT_THAT(wide, AllOf(HasSubstr("Expect "), HasSubstr(" g/s until you weigh (95 %); of it chance "),
                           HasSubstr("it gave 10 % too much")));
+}
+
+TEST(PlanText, AMassFarFromTheCropsIsDoubted) {
+  PlanSource source = source_of(100);
+  const auto needs = [&] { return need_sentences(source).front(); };
+  EXPECT_THAT(needs(), Not(HasSubstr("doubtful")));
+  source.lots.front().crop_mass = 19e-6;
+  EXPECT_THAT(needs(),
+              HasSubstr("(doubtful: 2.1 times as heavy as the crop's own, of 19 g a thousand; look at the unit)"));
+  source.lots.front().crop_mass = 90e-6;
+  EXPECT_THAT(needs(), HasSubstr("doubtful: 0.44 times"));
+  source.lots.front().crop_mass.reset();
+  EXPECT_THAT(needs(), Not(HasSubstr("doubtful")));
 }
 
 TEST(PlanText, NoneOfTheseDoes) {
@@ -146,7 +159,7 @@ TEST(PlannedSeeder, OfSeedsMadeHeavierIsWrittenOut) {
 TEST(PlannedSeeder, OfAShippedCropNamesIt) {
   PlanSource source = source_of(100);
   source.lots.front().crop = "pea";
-  source.lots.front().own_mass = false;
+  source.lots.front().crop_mass.reset();
   EXPECT_THAT(planned_seeder(source), HasSubstr("crop = \"pea\""));
   EXPECT_NEAR(planned_scene(source).lots[0].diameter, 7.00e-3, 1e-9);
 }
@@ -181,7 +194,8 @@ TEST(WeighedText, SaysWhatToSetAndHowSureItIs) {
                     HasSubstr("set "), HasSubstr("Weigh at the frequency that you set")));
   EXPECT_THAT(unwrapped(weighed_text(source, 2, weighed_plan(3))), HasSubstr("Take a narrower hole"));
   EXPECT_THAT(unwrapped(weighed_text(source, 2, weighed_plan(0.3))), HasSubstr("Take a wider hole"));
-  EXPECT_THAT(unwrapped(weighed_text(source, 1, weighed_plan(20))), HasSubstr("this contradicts"));
+  EXPECT_THAT(unwrapped(weighed_text(source, 1, weighed_plan(20))),
+              HasSubstr("this contradicts what the model errs by (so far off"));
   WeighedPlan of_repeats = weighed_plan(1.1);
   of_repeats.rows[0].weighed.repeats_scatter = 0.09;
   EXPECT_THAT(unwrapped(weighed_text(source, 2, of_repeats)), Not(HasSubstr("contradict")));

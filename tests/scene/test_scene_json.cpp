@@ -311,7 +311,7 @@ SeedLot any_lot() {
   if (any_choice()) sizes = any_sizes();
   discs = any_list(any_disc, shape == Shape::clump ? 1 : 0);
   for (std::optional<double>* number : {&shell, &modulus, &ratio}) *number = maybe(any_number);
-  for (PresetFile* preset : {&crop, &contact}) *preset = {any_text(), any_text()};
+  for (PresetFile* preset : {static_cast<PresetFile*>(&crop), &contact}) *preset = {any_text(), any_text()};
   return lot;
 }
 

@@ -183,8 +183,8 @@ TEST_P(CoincidingWalls, LinesOfACurvePushAsItDoesHoweverFineTheyAre) {
       bench.scene.tray.pieces = chords(radius, angle * degree), bench.scene.tray.box = false;
       bench.scene.contact.wall.restitution = 0.5;
       const double bottom = 0.5 - radius * std::cos(0.5 * angle * degree);
-      const ImpactResult hit = wall_impact(bench, 0.4, 0, bench.contact_time() / 200, 0, 2.37,
-                                           {{0.5, bottom, 0.5}, {0, 1, 0}, {1, 0, 0}});
+      const ImpactResult hit =
+          wall_impact(bench, 0.4, 0, bench.contact_time() / 200, 0, 2.37, {{0.5, bottom, 0.5}, {0, 1, 0}, {1, 0, 0}});
       EXPECT_NEAR(hit.vy / 0.4, 0.5, 0.005) << radius << " m by " << angle << " degrees";
     }
 }

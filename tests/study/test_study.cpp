@@ -164,6 +164,14 @@ TEST(Study, ImpossibleLayoutIsListedWithItsReason) {
   EXPECT_THAT(study.layouts[1].invalid, HasSubstr("study.toml:3"));
 }
 
+TEST(Study, AValueThatCannotBeReadIsNoLayout) {
+  const StudyFiles files;
+  EXPECT_THAT([&] { read_study(files.study("[vary]\ntray.holes.width = [\"12 mm\", \"12\"]\n")); },
+              testing::ThrowsMessage<InputError>(HasSubstr("study.toml:3: tray.holes.width: ")));
+  EXPECT_THAT([&] { read_study(files.study("[vary]\ntray.holes.width = [\"12 mm\", \"12 kg\"]\n")); },
+              testing::ThrowsMessage<InputError>(HasSubstr("study.toml:3: tray.holes.width: ")));
+}
+
 TEST(Study, StepTooLongMakesALayoutInvalid) {
   const StudyFiles files;
   const Study study = read_study(files.study("[vary]\nnumerics.dt = [\"1e-6 s\", \"1 ms\"]\n"));
