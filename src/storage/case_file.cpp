@@ -5,6 +5,7 @@
 #include <zstd.h>
 
 #include <cereal/types/string.hpp>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -99,11 +100,21 @@ std::string decompressed(std::string_view bytes) {
   return text;
 }
 
-/// What the scene of an identity says of its runs.
-RunBounds bounds_in(const std::string& identity) {
+/// Whether the steps of a run make up its time, and no more grains took them than were put in.
+bool has_its_steps(const Run& run) {
+  const auto steps = static_cast<double>(run.steps);
+  return std::abs(run.end_time - steps * run.dt) <= 1e-12 * run.end_time &&
+         static_cast<double>(run.grain_steps) <= steps * static_cast<double>(run.balance.put_in);
+}
+
+/// Whether a run may be the one of an identity.
+bool is_run_of(const std::string& identity, const Run& run) {
   const auto json = parse_json<nlohmann::json>(identity);
   const auto& scene = json.at("scene");
-  return {scene.at("lots").size(), scene.at("tray").at("holes").size(), scene.at("run").at("duration_s")};
+  const RunBounds bounds{scene.at("lots").size(), scene.at("tray").at("holes").size(),
+                         scene.at("run").at("duration_s")};
+  return run.random_seed == json.at("random_seed") && is_possible(run, bounds) && is_balanced(run.balance) &&
+         has_its_steps(run);
 }
 
 /// Its texts as they may be shown and written.
@@ -168,8 +179,7 @@ Case read_case(std::string_view bytes) {
     Case read;
     WholeRun whole{read.run};
     archive(read.identity, whole);
-    if (!is_possible(read.run, bounds_in(read.identity)) || !is_balanced(read.run.balance))
-      refuse("no run of its scene is such");
+    if (!is_run_of(read.identity, read.run)) refuse("no run of its scene is such");
     make_printable(read.run);
     return read;
   } catch (const cereal::Exception&) {

@@ -119,6 +119,10 @@ TEST(CaseFile, BehindARightChecksumNoIndexCountOrTimeIsBelieved) {
   refused([](auto& run) { run.max_relative_overlap = -3.1e231; });
   refused([](auto& run) { run.status = static_cast<RunStatus>(7); });
   refused([](auto& run) { run.end_time = 1e300; });
+  for (const double dt : {0.0, 1.4e-5, 1e-300}) refused([&](auto& run) { run.dt = dt; });
+  refused([](auto& run) { run.steps = 13; });
+  refused([](auto& run) { run.grain_steps = 12 * run.balance.put_in + 1; });
+  refused([](auto& run) { run.random_seed = 8; });
   refused([](auto& run) { run.snapshots[0].lot[2] = 9; });
   refused([](auto& run) { run.snapshots[0].vy.pop_back(); });
   refused([](auto& run) { run.snapshots[0].x[0] = std::nan(""); });
