@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <mutex>
 
 #include "files/atomic_file.hpp"
 #include "files/whole_file.hpp"
@@ -18,13 +19,14 @@ constexpr const char* extension = ".case";
 constexpr std::size_t name_digits = 32;
 constexpr std::size_t most_bytes_of_a_segment = std::size_t{1} << 26;
 
-/// Whether such bytes are a sound case of a run that did not fail.
-bool has_finished(const std::string& bytes) {
+/// The case in such bytes, unless it is damaged or belongs to another name.
+std::optional<Case> case_in(const std::string& bytes, const std::string& name) {
   try {
-    return read_case(bytes).run.status == RunStatus::finished;
+    Case read = read_case(bytes);
+    if (case_name(read.identity) == name) return read;
   } catch (const InputError&) {
-    return false;
   }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -38,16 +40,24 @@ std::string CaseFolder::loose_bytes(const std::string& name) const {
 }
 
 /// The first sound copy: loose, or in a segment known, or in one that has come since.
-std::string CaseFolder::sound_bytes(const std::string& name) const {
-  std::string bytes = loose_bytes(name);
-  if (!content_of_case(bytes).empty()) return bytes;
-  const std::lock_guard lock(mutex_);
+std::optional<CaseFolder::Copy> CaseFolder::sound_copy(const std::string& name) const {
+  Copy copy{loose_bytes(name), {}};
+  const auto is_sound = [&](const std::string& bytes) {
+    std::optional<Case> read = case_in(bytes, name);
+    if (read) copy.read = std::move(*read);
+    return read.has_value();
+  };
+  if (is_sound(copy.bytes)) return copy;
   for (int look = 0; look < 2; ++look) {
-    bytes = segments_.find(name, [](const std::string& copy) { return !content_of_case(copy).empty(); });
-    if (!bytes.empty()) return bytes;
+    {
+      const std::shared_lock lock(mutex_);  // many read side by side
+      copy.bytes = segments_.find(name, is_sound);
+    }
+    if (!copy.bytes.empty()) return copy;
+    const std::lock_guard lock(mutex_);
     segments_.refresh();
   }
-  return "";
+  return std::nullopt;
 }
 
 bool CaseFolder::is_of_other_version(const std::string& name) const {
@@ -69,18 +79,12 @@ std::optional<Run> CaseFolder::find(std::string_view identity) const {
 }
 
 std::optional<Case> CaseFolder::named(const std::string& name) const {
-  try {
-    const std::string bytes = sound_bytes(name);
-    if (bytes.empty()) return std::nullopt;
-    Case read = read_case(bytes);
-    if (case_name(read.identity) == name) return read;
-  } catch (const InputError&) {
-  }
-  return std::nullopt;
+  std::optional<Copy> copy = sound_copy(name);
+  return copy ? std::optional(std::move(copy->read)) : std::nullopt;
 }
 
 bool CaseFolder::has(const std::string& name) const {
-  return !sound_bytes(name).empty();
+  return sound_copy(name).has_value();
 }
 
 void CaseFolder::remove(const std::string& name) const {
@@ -114,14 +118,13 @@ std::vector<std::string> CaseFolder::names() const {
 }
 
 void CaseFolder::keep(std::string_view identity, const Run& run) const {
-  const std::string name = case_name(identity), bytes = case_bytes(identity, run), there = sound_bytes(name);
+  const std::string name = case_name(identity), bytes = case_bytes(identity, run);
   const PathInFolder file = file_of(name);
-  if (!there.empty()) {
-    if (content_of_case(there) == content_of_case(bytes)) return;
-    if (const std::optional<Case> other = named(name); other && other->identity == identity)
-      throw InputError(fmt::format(
-          "{}: holds another run of the same scene and random seed: the programs that made them do not agree",
-          file.path().string()));
+  if (const std::optional<Copy> there = sound_copy(name)) {
+    if (content_of_case(there->bytes) == content_of_case(bytes)) return;
+    throw InputError(
+        fmt::format("{}: holds another run of the same scene and random seed: the programs that made them do not agree",
+                    file.path().string()));
   }
   if (bytes.size() > most_bytes_of_a_case)
     throw InputError(fmt::format("{}: more than 1 GiB is not kept of a run; record less", file.path().string()));
@@ -143,7 +146,8 @@ std::size_t CaseFolder::pack(std::size_t at_least) const {
   };
   for (const std::string& name : names) {
     std::string content = loose_bytes(name);
-    if (!has_finished(content)) continue;
+    const std::optional<Case> read = case_in(content, name);
+    if (!read || read->run.status != RunStatus::finished) continue;
     bytes += content.size();
     segment.emplace(name, std::move(content));
     if (segment.size() == full_segment || bytes >= most_bytes_of_a_segment) write();

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <mutex>
 #include <optional>
+#include <shared_mutex>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,7 +33,7 @@ class CaseFolder {
   /// What lies under a name; none where nothing does, or it cannot be read, is damaged or belongs to another name.
   std::optional<Case> named(const std::string& name) const;
 
-  /// Whether a sound case lies under a name; quicker than `named`, though one in the place of another is not noticed.
+  /// Whether `named` has one.
   bool has(const std::string& name) const;
 
   /// Whether what lies under a name is a case as another version of the program writes it, which this one cannot read.
@@ -57,13 +57,17 @@ class CaseFolder {
   std::size_t pack(std::size_t at_least = 1) const;
 
  private:
+  struct Copy {
+    std::string bytes;
+    Case read;
+  };
   PathInFolder file_of(const std::string& name) const;
   std::vector<std::string> loose_names() const;
   std::string loose_bytes(const std::string& name) const;
-  std::string sound_bytes(const std::string& name) const;
+  std::optional<Copy> sound_copy(const std::string& name) const;
 
   PathInFolder path_;
-  mutable std::mutex mutex_;
+  mutable std::shared_mutex mutex_;
   mutable Segments segments_;
 };
 

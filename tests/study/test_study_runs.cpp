@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <set>
 
 #include "input/read_scene.hpp"
@@ -190,6 +191,28 @@ TEST_F(StudyRunsOf, ARunUnderAnotherNameIsNotTaken) {
   fs::copy_file(files[0], files[1], fs::copy_options::overwrite_existing);
   const std::set<RunStatus> of_both = {kept(runs, 1).status, kept(runs, 2).status};
   EXPECT_EQ(of_both, (std::set<RunStatus>{RunStatus::finished, RunStatus::interrupted}));
+  EXPECT_EQ(make(runs, {1, 2}).made, 1) << "in whose place it lies";
+  EXPECT_EQ(make(runs, {1, 2}).made, 0);
+}
+
+TEST_F(StudyRunsOf, ARunPackedUnderAnotherNameIsMadeAgain) {
+  StudyRuns runs(folder("a"));
+  make(runs, {1, 2});
+  const CaseFolder cases_folder(folder("a"));
+  const std::string name = wanted({2}).front().name;
+  const std::vector<fs::path> files = cases("a");
+  const fs::path of_one = files.at(files.at(0).stem() == name ? 1 : 0);
+  std::ifstream file(of_one, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  cases_folder.remove(name);
+  Segments(PathInFolder(folder("a")) / "segments").write({{name, bytes}});
+  EXPECT_FALSE(cases_folder.has(name));
+  EXPECT_EQ(make(runs, {1, 2}).made, 1);
+  EXPECT_TRUE(cases_folder.has(name));
+  EXPECT_EQ(make(runs, {1, 2}).made, 0);
+  fs::create_directories(folder("a") / "aa");
+  fs::copy_file(of_one, folder("a") / "aa" / (std::string(32, 'a') + ".case"));
+  EXPECT_EQ(cases_folder.pack(), 2u) << "none that lies under another name";
 }
 
 TEST_F(StudyRunsOf, ARunThatCannotBeWrittenIsInMemoryUntilItCan) {
