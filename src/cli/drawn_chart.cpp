@@ -32,6 +32,7 @@ Chart chart_of_study(const fs::path& folder, const std::string& name, int jobs) 
   }
   const PlannedStudy planned = study_of_plan(plan);
   const StudyResult result = answer_of_kept(planned, runs.kept(), jobs);
+  warn_of_lacking_runs(planned, result, folder, jobs);
   return study_chart(study_page(result, plan.random_seed), name);
 }
 

@@ -64,8 +64,7 @@ int export_run(const ExportOptions& command) {
 
 /// Throws InputError where one is.
 void check_that_none_is_missing(const std::string& folder, const std::vector<PlannedRun>& runs) {
-  const CaseFolder cases(cases_of(folder));
-  const auto missing = std::ranges::count_if(runs, [&](const PlannedRun& run) { return !cases.has(run.name); });
+  const std::size_t missing = missing_runs(folder, runs);
   if (missing > 0) throw InputError(fmt::format("{}: {} of {} runs are missing", folder, missing, runs.size()));
 }
 
@@ -73,9 +72,17 @@ int export_sweep(const StudyPlan& plan, const ExportOptions& command) {
   const CommonOptions& options = command.common;
   const PlannedStudy planned = study_of_plan(plan);
   StudyRuns runs(cases_of(options.file));
-  if (command.complete) check_that_none_is_missing(options.file, plan.runs);
+  const auto more = [&] { return more_runs_needed(planned, options.file, options.jobs); };
+  if (command.complete) {
+    check_that_none_is_missing(options.file, plan.runs);
+    if (const std::string needed = more(); !needed.empty())
+      throw InputError(fmt::format("{}: {}", options.file, needed));
+  }
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
-  return report_study(planned, runs, folder, {.jobs = options.jobs}, options, "");
+  const int exit_code = report_study(planned, runs, folder, {.jobs = options.jobs}, options, "");
+  if (exit_code == exit_interrupted || command.complete) return exit_code;
+  if (const std::string needed = more(); !needed.empty()) complain("warning: " + needed);
+  return exit_code;
 }
 
 int export_asked(AdaptiveStudy& asked, const ExportOptions& command) {
@@ -107,7 +114,8 @@ void add_export_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand("export", "write a study's reports from its kept runs, without simulating");
   command->add_option("FOLDER", options->common.file, "of a sweep, decide or optimise")->required();
-  command->add_flag("--complete", options->complete, "write nothing, with exit code 2, while runs are missing");
+  command->add_flag("--complete", options->complete,
+                    "write nothing, with exit code 2, while runs are missing or an interval needs more");
   command->add_option("--run", options->run, "name of a kept run (cases/plans): write only its reports, as run does")
       ->type_name("NAME");
   command->add_option("--out", options->common.out, "directory for the reports of --run")->type_name("DIR");

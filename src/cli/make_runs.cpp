@@ -13,6 +13,7 @@
 #include "cli/leading_layouts.hpp"
 #include "cli/progress.hpp"
 #include "cli/threads.hpp"
+#include "scene/input_error.hpp"
 
 namespace vibrosow {
 namespace {
@@ -118,6 +119,10 @@ BatchResult make_runs(StudyRuns& runs, const std::vector<WantedRun>& wanted, con
                                    made.batch.interrupted));
   made.timing = {progress.seconds(), batch.jobs, made.batch.made, made.batch.run_time, made.batch.grain_steps};
   return made;
+}
+
+void check_that_all_are_kept(const StudyRuns& runs) {
+  if (const std::string reason = runs.not_kept(); !reason.empty()) throw InputError("runs are not kept: " + reason);
 }
 
 }  // namespace vibrosow

@@ -33,6 +33,9 @@ struct BatchResult {
 BatchResult make_runs(StudyRuns& runs, const std::vector<WantedRun>& wanted, const BatchFlags& flags, int jobs,
                       bool quiet);
 
+/// Throws InputError where runs that were made could not be kept, which is all that such a command is for.
+void check_that_all_are_kept(const StudyRuns& runs);
+
 /// Makes the runs of what asks for them round by round.
 class RoundExecutor {
  public:

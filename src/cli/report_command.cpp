@@ -104,6 +104,7 @@ int page_of_study(const CommonOptions& options, const std::string& page_template
   const PlannedStudy planned = study_of_plan(plan);
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
   const StudyResult result = answer_of_kept(planned, runs.kept(), options.jobs);
+  warn_of_lacking_runs(planned, result, options.file, options.jobs);
   return add_sweep_page_with_replays(planned, runs, folder, result, options, page_template);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
@@ -10,10 +11,18 @@
 #include "cli/sweep_table.hpp"
 #include "report/page.hpp"
 #include "report/study_page.hpp"
+#include "storage/case_folder.hpp"
+#include "storage/study_plan.hpp"
 #include "study/sweep.hpp"
 
 namespace vibrosow {
 namespace {
+
+/// Whether no layout lacks runs.
+bool is_whole(const StudyResult& result) {
+  return std::ranges::none_of(result.layouts,
+                              [](const LayoutResult& one) { return one.status == LayoutStanding::incomplete; });
+}
 
 int exit_code_of(const StudyResult& result, bool interrupted) {
   if (interrupted) return exit_interrupted;
@@ -34,6 +43,27 @@ int stopped_by_guard(int layout, const std::string& reason) {
   return exit_stopped_by_guard;
 }
 
+std::size_t missing_runs(const std::filesystem::path& folder, const std::vector<PlannedRun>& runs) {
+  const CaseFolder cases(cases_of(folder));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(runs, [&](const PlannedRun& run) { return !cases.has(run.name); }));
+}
+
+std::string more_runs_needed(const PlannedStudy& planned, const std::filesystem::path& folder, int jobs) {
+  const std::optional<PlannedStudy> next = next_round(planned, StudyRuns(cases_of(folder)).kept(), jobs);
+  if (!next) return "";
+  const std::size_t more = next->plan.runs.size() - planned.plan.runs.size();
+  return fmt::format(
+      "{} more run{} needed for the interval that is wanted: {} plans them, and the same sweep makes them at once",
+      more, more == 1 ? " is" : "s are", typed_line({"submit", folder.string()}));
+}
+
+void warn_of_lacking_runs(const PlannedStudy& planned, const StudyResult& result, const std::filesystem::path& folder,
+                          int jobs) {
+  const std::string lacking = is_whole(result) ? more_runs_needed(planned, folder, jobs) : "runs are missing";
+  if (!lacking.empty()) complain("warning: " + lacking);
+}
+
 int add_sweep_page_with_replays(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
                                 const StudyResult& result, const CommonOptions& options,
                                 const std::string& page_template) {
@@ -50,8 +80,7 @@ int report_study(const PlannedStudy& planned, const StudyRuns& runs, const Outpu
       planned, runs.kept(), timing.jobs,
       [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs_csv.add(scene, of_scene); });
   std::vector<OutputFile> files = sweep_files(result, runs_csv, timing, options.csv);
-  const bool whole = std::ranges::none_of(
-      result.layouts, [](const LayoutResult& one) { return one.status == LayoutStanding::incomplete; });
+  const bool whole = is_whole(result);
   const bool with_replays = options.replays > 0 && whole;
   if (!page_template.empty() && !with_replays)
     files.push_back(

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,6 +15,16 @@ namespace vibrosow {
 
 /// Says which layout the guard stopped, and why; an exit code.
 int stopped_by_guard(int layout, const std::string& reason);
+
+/// How many of the planned runs a study's folder does not keep.
+std::size_t missing_runs(const std::filesystem::path& folder, const std::vector<PlannedRun>& runs);
+
+/// Of a sweep of which no run is missing: that its wanted interval needs more, and how they are made; else empty.
+std::string more_runs_needed(const PlannedStudy& planned, const std::filesystem::path& folder, int jobs);
+
+/// Warns where the answer of a sweep's kept runs lacks runs, or its wanted interval needs more.
+void warn_of_lacking_runs(const PlannedStudy& planned, const StudyResult& result, const std::filesystem::path& folder,
+                          int jobs);
 
 /// Adds a sweep's page with the replays that the options ask for (add_page_with_replays).
 int add_sweep_page_with_replays(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,

@@ -14,12 +14,14 @@
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "cli/progress.hpp"
+#include "cli/report_study.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/printable.hpp"
 #include "storage/case_folder.hpp"
 #include "storage/checkpoint_folder.hpp"
 #include "storage/run_leases.hpp"
 #include "storage/study_plan.hpp"
+#include "study/planned_study.hpp"
 
 namespace vibrosow {
 namespace {
@@ -95,7 +97,11 @@ void print_status(const std::string& folder) {
   if (saved > 0) print("{} of these saved part of the way\n", saved);
   for (const auto& [what, runs] : status.failed) print_text(wrapped(fmt::format("{} {}", runs, what), 2));
   if (!status.failed.empty()) print_text("with --retry the same command repeats those\n");
-  if (status.missing.empty()) return;
+  if (status.missing.empty()) {
+    const std::string more = asked ? "" : more_runs_needed(study_of_plan(plan), folder, 1);
+    if (!more.empty()) print_text(wrapped(more));
+    return;
+  }
   if (rate > 0)
     print("{} left, at the current speed\n", duration_text(status.cost_left / rate));
   else

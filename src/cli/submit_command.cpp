@@ -55,6 +55,17 @@ void refuse_in_script(const std::string& what, const std::string& text) {
         printable(text)));
 }
 
+/// The current plan of a folder; where all its runs are there and its wanted interval needs more, the plan of these.
+Frozen begun(const fs::path& folder) {
+  PlannedStudy planned = study_of_plan(read_plan(folder));
+  std::optional<PlannedStudy> next;
+  if (planned.study.replicates.interval && missing_runs(folder, planned.plan.runs) == 0)
+    next = next_round(planned, StudyRuns(cases_of(folder)).kept(), 1);
+  if (!next) return {std::move(planned), folder, current_plan(folder)};
+  std::string name = freeze_plan(folder, next->plan);
+  return {std::move(*next), folder, std::move(name)};
+}
+
 Frozen freeze(const SubmitOptions& options) {
   const CommonOptions& common = options.common;
   refuse_in_script("the folder", fs::current_path().string());
@@ -65,7 +76,7 @@ Frozen freeze(const SubmitOptions& options) {
   if (fs::is_directory(common.file)) {
     if (!common.sets.empty() || !common.out.empty())
       throw InputError("--set and --out go with a study, not with the folder of one that is begun");
-    return {study_of_plan(read_plan(common.file)), fs::canonical(common.file), current_plan(common.file)};
+    return begun(fs::canonical(common.file));
   }
   const InputFile file = input_file(common.file, FileKind::study);
   PlannedStudy planned = plan_study(file.path, common.sets, common.random_seed, file.files);

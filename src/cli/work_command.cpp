@@ -11,8 +11,10 @@
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
+#include "cli/report_study.hpp"
 #include "cli/slurm.hpp"
 #include "input/wording.hpp"
+#include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "storage/study_plan.hpp"
 #include "study/planned_study.hpp"
@@ -21,7 +23,7 @@ namespace vibrosow {
 namespace {
 
 struct WorkOptions {
-  std::string folder, plan, shard = "1/1";
+  std::string folder, plan, shard = "1/1";  // plan: empty is the current one
   BatchFlags batch;
   int jobs = 1;
   bool quiet = false, requeue = false;
@@ -40,6 +42,13 @@ std::pair<std::size_t, std::size_t> shard_numbers(const std::string& text) {
   throw InputError(fmt::format("--shard: \"{}\" is no share such as 17/200", shortened(text)));
 }
 
+/// After the last of all shards: whether the wanted interval needs more.
+void tell_of_more_runs(const PlannedStudy& planned, const WorkOptions& options) {
+  if (!planned.study.replicates.interval || missing_runs(options.folder, planned.plan.runs) > 0) return;
+  const std::string more = more_runs_needed(planned, options.folder, options.jobs);
+  if (!more.empty()) print_text(wrapped(more));
+}
+
 int work(const WorkOptions& options) {
   const auto [number, shards] = shard_numbers(options.shard);
   const PlannedStudy planned = study_of_plan(read_plan(options.folder, options.plan));
@@ -50,7 +59,8 @@ int work(const WorkOptions& options) {
   if (!options.quiet)
     print("shard {}/{}: {} runs made, {} were there, {} left\n", number, shards, batch.made, batch.there,
           batch.interrupted);
-  if (!runs.not_kept().empty()) throw InputError("runs are not kept: " + runs.not_kept());
+  check_that_all_are_kept(runs);
+  if (!options.quiet && options.plan.empty()) tell_of_more_runs(planned, options);
   if (batch.interrupted == 0) return exit_done;
   if (options.requeue) {
     std::signal(SIGTERM, SIG_IGN);  // Slurm sends it as soon as the job is taken back

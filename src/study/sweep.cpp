@@ -174,9 +174,13 @@ void add_doubts_of_need(const Study& study, const std::vector<Evaluation>& repli
   std::vector<double> flowed;
   for (const auto& rate : rates)
     if (rate) flowed.push_back(*rate);
-  if (!enough_runs(rates, study.replicates))
-    add(DoubtKind::wide_interval, fmt::format("after {} runs the rate's interval is still wider than {:.3g} %",
-                                              replicates.size(), 100 * *study.replicates.interval));
+  if (!enough_runs(rates, study.replicates)) {
+    const bool more_may_follow = static_cast<int>(rates.size()) < study.replicates.most;
+    add(DoubtKind::wide_interval,
+        fmt::format("after {}{} runs the rate's interval is still wider than {:.3g} %{}", rates.size(),
+                    more_may_follow ? fmt::format(" of at most {}", study.replicates.most) : "",
+                    100 * *study.replicates.interval, more_may_follow ? ", and more are needed" : ""));
+  }
   if (look_skewed(flowed))
     add(DoubtKind::skewed_replicates,
         "the runs scatter to one side: the interval holds less often than 95 times in 100");

@@ -250,6 +250,22 @@ printf '%s\n' 'base = "seeder.toml"' 'replicates = { interval = "50 %", most = 1
 expect 0 "reports: by-need" sweep by-need.toml --out by-need
 [ "$(find by-need/cases -name '*.case' | wc -l)" -ge 10 ] || fail "fewer than ten runs by need"
 
+# A plan of a first round says that its interval needs another, which submit plans.
+printf '%s\n' 'base = "seeder.toml"' 'replicates = { interval = "0.5 %", most = 12 }' '[set]' 'tray.fill = { count = 60 }' 'run.duration = "0.2 s"' \
+  'tray.motion = { kind = "harmonic", frequency = "15 Hz", amplitude = "4 mm" }' > tight.toml
+expect 0 "SBATCH" submit tight.toml --out tight --time "1 h" --dry-run
+expect 0 "^2 more runs are needed for the interval that is wanted: vibrosow submit" work tight
+expect 0 "^2 more runs are needed for the interval that is wanted: vibrosow submit" status tight
+expect 2 "tight: 2 more runs are needed .*: vibrosow submit tight plans them" export tight --complete
+[ -e tight/sweep.csv ] && fail "an export that is not complete is written"
+expect 0 "warning: 2 more runs are needed" export tight
+grep -q "after 10 of at most 12 runs the rate's interval is still wider than 0.5 %, and more are needed" tight/sweep.csv || fail "$(<tight/sweep.csv)"
+expect 0 "SBATCH" submit tight --time "1 h" --dry-run
+expect 0 "2 runs made, 10 were there, 0 left" work tight
+expect 0 "^12 of 12 runs are there, 0 are missing" status tight
+expect 0 "reports: tight" export tight --complete
+grep -q "after 12 runs the rate's interval is still wider than 0.5 %" tight/sweep.csv || fail "$(<tight/sweep.csv)"
+
 # Slurm's scripts; a study moved away afterwards is still the same.
 expect 0 "#SBATCH --array=1-2%1" submit study.toml --out submitted --time "1 h" --shards 2 --array-limit 1 --dry-run
 expect 0 "exec .* work .*submitted" submit submitted --time "1 h" --shards 2 --dry-run
