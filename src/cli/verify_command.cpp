@@ -49,6 +49,7 @@ int verify(const std::string& folder) {
   }
   StudyRuns runs(cases_of(folder));
   const BatchResult made = make_runs(runs, wanted_runs(planned, again), {}, 1, true);
+  check_that_all_are_kept(runs);
   print("{} made again; {} belong to no run of the plan and were removed\n", made.batch.made,
         unreadable.size() - again.size());
   return made.batch.interrupted > 0 ? exit_interrupted : exit_done;

@@ -223,6 +223,10 @@ rm "$a_case"
 expect 0 " 1 are missing" status one-job
 expect 2 "1 of [0-9]+ runs are missing" export one-job --complete
 expect 0 "warning: runs are missing" export one-job
+expect 0 "warning: runs are missing" draw one-job --chart ranking --out missing.svg
+mkdir -p "$a_case/full"  # what stands there cannot be replaced
+expect 2 "runs are not kept: .*$(basename "$a_case")" verify one-job
+rm -r "$a_case"
 grep -q ",missing," one-job/sweep_runs.csv || fail "a missing run is not said to be missing"
 cmp -s one-job/sweep.csv whole.csv && fail "an export of what is missing is whole"
 expect 0 "reports: one-job" sweep study.toml --out one-job
