@@ -6,11 +6,13 @@
 #include <optional>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/console.hpp"
 #include "cli/make_replays.hpp"
 #include "cli/sweep_table.hpp"
 #include "report/page.hpp"
 #include "report/study_page.hpp"
+#include "scene/input_error.hpp"
 #include "storage/case_folder.hpp"
 #include "storage/study_plan.hpp"
 #include "study/sweep.hpp"
@@ -22,6 +24,15 @@ namespace {
 bool is_whole(const StudyResult& result) {
   return std::ranges::none_of(result.layouts,
                               [](const LayoutResult& one) { return one.status == LayoutStanding::incomplete; });
+}
+
+/// The current plan; none where there is none that this version can read.
+std::optional<StudyPlan> plan_there(const std::filesystem::path& folder) {
+  try {
+    return read_plan(folder);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 int exit_code_of(const StudyResult& result, bool interrupted) {
@@ -41,6 +52,15 @@ int exit_code_of(const StudyResult& result, bool interrupted) {
 int stopped_by_guard(int layout, const std::string& reason) {
   complain(fmt::format("the guard stopped layout {}: {}", layout, reason));
   return exit_stopped_by_guard;
+}
+
+std::string begin_study(const OutputFolder& folder, const StudyPlan& plan, bool quiet) {
+  const std::optional<StudyPlan> former = plan_there(folder.path());
+  const bool removed = !(former && are_of_one_study(*former, plan)) && folder.clear();
+  if (removed && !quiet)
+    print_notes({fmt::format("{} held reports of another study, or without their plan, which are removed; runs stay",
+                             folder.path().string())});
+  return freeze_plan(folder.path(), plan);
 }
 
 std::size_t missing_runs(const std::filesystem::path& folder, const std::vector<PlannedRun>& runs) {

@@ -83,7 +83,7 @@ Frozen freeze(const SubmitOptions& options) {
   print_warnings(study_warnings(planned.study));
   tell_of_files(file);
   const OutputFolder folder = common.output_folder("sweep", sweep_file_texts());
-  std::string name = freeze_plan(folder.path(), planned.plan);
+  std::string name = begin_study(folder, planned.plan, common.quiet);
   return {std::move(planned), fs::canonical(folder.path()), std::move(name)};
 }
 

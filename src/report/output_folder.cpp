@@ -195,6 +195,12 @@ void OutputFolder::add(const OutputFile& file) const {
   write_file_atomically(folder_ / list_name, text_of(list, true));
 }
 
+bool OutputFolder::clear() const {
+  if (former_set(folder_, command_, {}).files.empty()) return false;
+  write({});
+  return true;
+}
+
 void OutputFolder::write(const std::vector<OutputFile>& files) const {
   std::error_code error;
   fs::create_directories(folder_, error);

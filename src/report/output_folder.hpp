@@ -36,6 +36,9 @@ class OutputFolder {
   /// Adds a file to the set that is there, or replaces it in that. Throws as `write` does.
   void add(const OutputFile& file) const;
 
+  /// Takes the set away; false where there is none. Throws as `write` does.
+  bool clear() const;
+
   const std::filesystem::path& path() const { return folder_; }
 
  private:

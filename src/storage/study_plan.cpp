@@ -112,6 +112,11 @@ StudyPlan plan_in(const std::string& text) {
 
 }  // namespace
 
+bool are_of_one_study(const StudyPlan& one, const StudyPlan& other) {
+  return one.study == other.study && one.sets == other.sets && one.random_seed == other.random_seed &&
+         one.files == other.files && one.question == other.question;
+}
+
 PathInFolder cases_of(const fs::path& folder) {
   return PathInFolder(folder) / "cases";
 }

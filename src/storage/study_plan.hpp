@@ -29,6 +29,9 @@ struct StudyPlan {
   AskedQuestion question{};                  // of a decision or a search
 };
 
+/// Whether two plans are of one study, asked one question, however many runs each has by now.
+bool are_of_one_study(const StudyPlan& one, const StudyPlan& other);
+
 /// Where a sweep's folder has its runs and its plans.
 PathInFolder cases_of(const std::filesystem::path& folder);
 
