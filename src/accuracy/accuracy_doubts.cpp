@@ -6,12 +6,13 @@
 #include <map>
 
 #include "scene/si_units.hpp"
+#include "study/layout_doubts.hpp"
 
 namespace vibrosow {
 namespace {
 
-/// By setting, then of the runs as a whole, whose setting is 0.
-std::vector<LayoutDoubts> doubts_of_runs(const std::vector<AccuracyRun>& runs) {
+/// By setting, then of the runs as a whole and of their scene, whose setting is 0.
+std::vector<LayoutDoubts> doubts_of_runs(const std::vector<AccuracyRun>& runs, const Scene& scene) {
   constexpr double share = 0.5;  // of the median, below which a run is of another kind
   std::map<int, std::vector<const std::vector<Doubt>*>> of_settings;
   std::vector<double> rates;
@@ -26,7 +27,7 @@ std::vector<LayoutDoubts> doubts_of_runs(const std::vector<AccuracyRun>& runs) {
   }
   std::vector<LayoutDoubts> doubts;
   for (const auto& [setting, of_runs] : of_settings) doubts.push_back({setting, counted_doubts(of_runs)});
-  std::vector<CountedDoubt> of_all;
+  std::vector<CountedDoubt> of_all = doubts_of_scene(scene);
   if (reason)
     of_all.push_back({DoubtKind::runs_left_out, 0, 0,
                       fmt::format("{} of the {} runs {} no rate: {}", runs.size() - rates.size(), runs.size(),
@@ -47,12 +48,12 @@ std::vector<LayoutDoubts> doubts_of_runs(const std::vector<AccuracyRun>& runs) {
 
 }  // namespace
 
-std::vector<SharedDoubt> doubts_about(const std::vector<AccuracyRun>& runs) {
-  return shared_doubts(doubts_of_runs(runs));
+std::vector<SharedDoubt> doubts_about(const std::vector<AccuracyRun>& runs, const Scene& scene) {
+  return shared_doubts(doubts_of_runs(runs, scene));
 }
 
 std::vector<SharedDoubt> doubts_about(const AccuracyResult& result, const Scene& scene) {
-  std::vector<LayoutDoubts> doubts = doubts_of_runs(result.runs);
+  std::vector<LayoutDoubts> doubts = doubts_of_runs(result.runs, scene);
   std::vector<CountedDoubt>& of_all = doubts.back().doubts;
   const auto add = [&](DoubtKind kind, std::string text) { of_all.push_back({kind, 0, 0, std::move(text)}); };
   if (result.fit && !result.fit->fits())

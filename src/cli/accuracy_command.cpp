@@ -271,7 +271,7 @@ int run_promise(const AccuracyOptions& options) {
   add_page(files, page_template, accuracy_page_data(scene, made, goal));
   write_then_print(
       options.common.quiet, [&] { folder.write(files); },
-      [&] { print("{}\n{}", wrapped(scene.title), promise_text(made, goal)); });
+      [&] { print("{}\n{}", wrapped(scene.title), promise_text(scene, made, goal)); });
   return ended(options, folder, runs, interrupt);
 }
 

@@ -281,6 +281,7 @@ std::string cost_text(const Promise& promise) {
 }
 
 struct PromiseSource {
+  const Scene* scene;
   const Promise* promise;
   const PromiseGoal* goal;
   const Offer* offer() const { return promise->offer ? &*promise->offer : nullptr; }
@@ -310,7 +311,7 @@ JsonKeys<PromiseSource> promise_keys() {
       {"pilots", "", "runs made to choose by", [](S s) { return s.promise->pilots; }},
       {"refused", "", "why nothing is promised; empty where something is", [](S s) { return s.promise->refused; }},
       {"doubts", "", "what speaks against its runs, as in decision.json; of settings by their rows in accuracy.csv",
-       [](S s) { return doubts_json(doubts_about(s.promise->runs), "setting"); }},
+       [](S s) { return doubts_json(doubts_about(s.promise->runs, *s.scene), "setting"); }},
       {"integrator", "", "scheme chosen",
        of_offer([=](P p, O o) { return integrator_name(setting(p, o).integrator); })},
       {"steps_per_contact", "", "contact duration over the time step",
@@ -452,10 +453,10 @@ std::string promise_cost(const Promise& promise) {
   return fmt::format("Cost: {} pilots {:.3g} s of CPU time.", promise.pilots, promise.pilot_cpu_time);
 }
 
-std::string promise_text(const Promise& promise, const PromiseGoal& goal) {
+std::string promise_text(const Scene& scene, const Promise& promise, const PromiseGoal& goal) {
   std::string text;
   for (const std::string& paragraph : promise_paragraphs(promise, goal)) text += wrapped(paragraph);
-  text += doubts_paragraph(doubts_about(promise.runs), "setting");
+  text += doubts_paragraph(doubts_about(promise.runs, scene), "setting");
   text += wrapped(promise_cost(promise));
   return text;
 }
@@ -529,7 +530,7 @@ std::vector<OutputFile> accuracy_files(const AccuracyResult& result, const Accur
 std::vector<OutputFile> promise_files(const Scene& scene, const Promise& promise, const PromiseGoal& goal,
                                       const AccuracyTiming& timing, CsvFormat format) {
   std::vector<OutputFile> files = files_of(result_of(promise), timing, promise_cost(promise), format);
-  files.push_back({"promise.json", json_of(promise_keys(), PromiseSource{&promise, &goal})});
+  files.push_back({"promise.json", json_of(promise_keys(), PromiseSource{&scene, &promise, &goal})});
   if (promise.offer) files.push_back({"numerics.toml", promised_numerics(scene, promise, goal)});
   return files;
 }

@@ -52,8 +52,8 @@ std::vector<std::string> promise_paragraphs(const Promise& promise, const Promis
 /// The CPU time that it took, in a sentence.
 std::string promise_cost(const Promise& promise);
 
-/// Both for a terminal.
-std::string promise_text(const Promise& promise, const PromiseGoal& goal);
+/// Both for a terminal, with what speaks against its runs and the scene.
+std::string promise_text(const Scene& scene, const Promise& promise, const PromiseGoal& goal);
 
 /// The keys of a seeder that set the scene to an offer's setting, as TOML: also of lots with a softness of their own.
 std::string promised_numerics(const Scene& scene, const Promise& promise, const PromiseGoal& goal);

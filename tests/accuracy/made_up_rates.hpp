@@ -6,8 +6,17 @@
 
 #include "accuracy/accuracy_settings.hpp"
 #include "grains/random.hpp"
+#include "scene/scene.hpp"
 
 namespace vibrosow {
+
+/// One that nothing is warned of.
+inline Scene sound_scene(Space space = Space::three_dimensional) {
+  Scene scene;
+  scene.space = space;
+  scene.contact.seed.friction = scene.contact.wall.friction = 0.3;
+  return scene;
+}
 
 /// A made-up tray whose rate errs by main effects that are known: so much percent at the softest of its settings, at 20
 /// steps a contact, and at a slip speed of 80 mm/s.

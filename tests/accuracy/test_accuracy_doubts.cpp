@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "made_up_rates.hpp"
+#include "report/accuracy_report.hpp"
 
 namespace vibrosow {
 namespace {
@@ -20,10 +21,8 @@ AccuracyResult result_with(double by_interaction) {
 }
 
 std::vector<DoubtKind> kinds_of(const AccuracyResult& result, Space space) {
-  Scene scene;
-  scene.space = space;
   std::vector<DoubtKind> kinds;
-  for (const SharedDoubt& doubt : doubts_about(result, scene)) {
+  for (const SharedDoubt& doubt : doubts_about(result, sound_scene(space))) {
     kinds.push_back(doubt.kind);
     EXPECT_TRUE(doubt.layouts.empty()) << "of the answer itself";
   }
@@ -43,6 +42,24 @@ TEST(AccuracyDoubts, ThePlanesOwnErrorIsOneUntilItIsMeasured) {
 
 TEST(AccuracyDoubts, PartsOfASettingThatActOnEachOtherAreOne) {
   EXPECT_THAT(kinds_of(result_with(12), Space::three_dimensional), ElementsAre(DoubtKind::errors_interact));
+}
+
+TEST(AccuracyDoubts, WhatCanHardlyBeMeantInTheSceneIsOneOfTableAndPromise) {
+  const AccuracyResult result = result_with(0);
+  Scene still = sound_scene();
+  still.contact = {};
+  const auto is_told_once = [](const std::vector<SharedDoubt>& doubts) {
+    ASSERT_EQ(doubts.size(), 1u);
+    EXPECT_EQ(doubts[0].kind, DoubtKind::unlikely_scene);
+    EXPECT_TRUE(doubts[0].layouts.empty()) << "of the answer itself";
+    EXPECT_THAT(doubts[0].text, testing::StartsWith("tray.motion: the tray stands still"));
+  };
+  is_told_once(doubts_about(result, still));
+  is_told_once(doubts_about(result.runs, still));
+  Promise made;
+  made.runs = result.runs;
+  EXPECT_THAT(promise_text(still, made, {.within_percent = 3}),
+              testing::HasSubstr("tray.motion: the tray stands still"));
 }
 
 TEST(AccuracyDoubts, AReferenceThatErrsTooIsOne) {

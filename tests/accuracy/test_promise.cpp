@@ -146,7 +146,7 @@ TEST(Promise, SaysWhatCannotBeHad) {
   EXPECT_FALSE(made.offer);
   ASSERT_TRUE(made.least);
   EXPECT_GT(made.least->error_bound(), 0.02);
-  EXPECT_THAT(promise_text(made, goal), testing::HasSubstr("cannot be promised"));
+  EXPECT_THAT(promise_text(sound_scene(), made, goal), testing::HasSubstr("cannot be promised"));
 }
 
 TEST(Promise, ABudgetIsKeptAndMoreBuysLess) {
@@ -268,9 +268,10 @@ TEST(Promise, RunsThatWereKeptChangeNothingButTheTimeTaken) {
     EXPECT_EQ(made.mass_rate->mean, whole.mass_rate->mean);
     EXPECT_EQ(made.offer->setting, whole.offer->setting);
     EXPECT_EQ(made.runs.size(), whole.runs.size());
-    EXPECT_THAT(promise_text(made, goal), testing::HasSubstr(fmt::format("{} of the {} runs", kept, count)));
+    EXPECT_THAT(promise_text(sound_scene(), made, goal),
+                testing::HasSubstr(fmt::format("{} of the {} runs", kept, count)));
   }
-  EXPECT_EQ(promise_text(whole, goal).find("from before"), std::string::npos);
+  EXPECT_EQ(promise_text(sound_scene(), whole, goal).find("from before"), std::string::npos);
 }
 
 TEST(Promise, WhatCannotBeHadIsTheSameOfRunsThatWereKept) {
@@ -284,9 +285,9 @@ TEST(Promise, WhatCannotBeHadIsTheSameOfRunsThatWereKept) {
 TEST(Promise, SaysWhichOfItsRunsAreOdd) {
   std::vector<AccuracyRun> runs(5);
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].mass_rate = 2.0 + 0.1 * static_cast<double>(i);
-  EXPECT_THAT(doubts_about(runs), testing::IsEmpty());
+  EXPECT_THAT(doubts_about(runs, sound_scene()), testing::IsEmpty());
   runs[1].mass_rate = 0.04, runs[3].mass_rate.reset(), runs[3].refused = "it does not fit";
-  const std::vector<SharedDoubt> doubts = doubts_about(runs);
+  const std::vector<SharedDoubt> doubts = doubts_about(runs, sound_scene());
   ASSERT_EQ(doubts.size(), 2u);
   EXPECT_THAT(sentence_of(remark_of(doubts[0], "setting")),
               testing::StartsWith("Doubtful: 1 of the 4 runs with a rate passed less than half"));
@@ -300,7 +301,7 @@ TEST(Promise, SaysWhichOfItsRunsAreOdd) {
     some.front().mass_rate = *some.front().mass_rate / 50;
     return some;
   });
-  EXPECT_THAT(promise_text(made, goal), testing::HasSubstr("clogs"));
+  EXPECT_THAT(promise_text(sound_scene(), made, goal), testing::HasSubstr("clogs"));
 }
 
 TEST(Promise, CpuTimeIsThatOfRunsThatWereMade) {

@@ -115,7 +115,7 @@ TEST_F(AccuracyPage, ErrorsAreAgainstTheFinestWhereTheyDoNotWhichIsADoubt) {
   EXPECT_EQ(page["against"], "the finest setting");
   EXPECT_NEAR(page["levels"][1]["error"]["percent"].get<double>(), 8, 0.1);
   EXPECT_TRUE(page["errors"].empty());
-  EXPECT_THAT(page["remarks"][0]["text"].get<std::string>(), HasSubstr("do not determine the limit"));
+  EXPECT_THAT(page["remarks"].dump(), HasSubstr("do not determine the limit"));
 }
 
 TEST_F(AccuracyPage, APlaneIsADoubtUntilItsErrorIsKnown) {
