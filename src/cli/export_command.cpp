@@ -1,24 +1,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <string>
 
-#include "agronomy/row_metrics.hpp"
 #include "cli/adaptive_study.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "cli/report_study.hpp"
+#include "cli/run_answer.hpp"
 #include "input/wording.hpp"
-#include "outflow/outflow.hpp"
-#include "plan/effects.hpp"
 #include "plan/model.hpp"
-#include "report/expected_report.hpp"
-#include "report/page.hpp"
-#include "report/run_page.hpp"
+#include "plan/scene_warnings.hpp"
 #include "report/run_report.hpp"
 #include "scene/input_error.hpp"
 #include "storage/case_folder.hpp"
@@ -46,18 +41,12 @@ int export_run(const ExportOptions& command) {
   if (!found) throw InputError(fmt::format("{}: run {} is not kept", options.file, command.run));
   const std::size_t index = static_cast<std::size_t>(run - runs.begin());
   const Layout& layout = planned.study.layouts.at(static_cast<std::size_t>(run->layout) - 1);
-  const Model model = prepare(*wanted_runs(planned, {index}).front().scene);
+  const Scene& scene = *wanted_runs(planned, {index}).front().scene;
+  const Model model = prepare(scene);
   const OutputFolder folder = options.output_folder("run", run_file_texts());
-  Outflow outflow = measure_outflow(model.scene, found->run);
-  const ExpectedWithDoubts expected = expected_of_run(model.scene, found->run, outflow, knowledge_for(planned.study));
-  std::ranges::copy(expected.doubts, std::back_inserter(outflow.doubts));
-  std::optional<DrillMetrics> sown;
-  if (layout.drill) sown = drill_metrics(model.scene, found->run, outflow, *layout.drill);
-  std::vector<OutputFile> files =
-      run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv, sown, expected.rate);
-  std::ranges::move(page_files("", run_page_data({model, found->run, outflow, sown, sentence_of(expected.rate)})),
-                    std::back_inserter(files));
-  folder.write(files);
+  const RunAnswer answer =
+      answer_of_run(model.scene, found->run, scene_warnings(scene), knowledge_for(planned.study), layout.drill);
+  folder.write(files_of_run(model, found->run, answer, options.csv, "", ""));
   print("reports: {}\n", folder.path().string());
   return exit_done;
 }

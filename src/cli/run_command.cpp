@@ -16,6 +16,7 @@
 #include "cli/help_text.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "cli/run_answer.hpp"
 #include "cli/threads.hpp"
 #include "files/atomic_file.hpp"
 #include "files/whole_file.hpp"
@@ -234,25 +235,15 @@ int run_scene(const RunOptions& options) {
     simulation.progress = [&](double fraction) { progress.update(fraction); };
     run = run_model(model, simulation);
   }
-  Outflow outflow = measure_outflow(scene, run);
-  for (std::size_t i = 0; i < warnings.size(); ++i)
-    outflow.doubts.insert(outflow.doubts.begin() + static_cast<std::ptrdiff_t>(i),
-                          {DoubtKind::unlikely_scene, warnings[i]});
-  const ExpectedWithDoubts expected = expected_of_run(scene, run, outflow, knowledge);
-  std::ranges::copy(expected.doubts, std::back_inserter(outflow.doubts));
-  std::optional<DrillMetrics> sown;
-  if (drill) sown = drill_metrics(scene, run, outflow, *drill);
+  const RunAnswer answer = answer_of_run(scene, run, warnings, knowledge, drill);
   std::vector<OutputFile> files =
-      run_files(scene, run, outflow, effect_names(model.effects), options.csv, sown, expected.rate);
-  std::ranges::move(page_files(page_template, run_page_data({model, run, outflow, sown, sentence_of(expected.rate)}),
-                               recording.file()),
-                    std::back_inserter(files));
+      files_of_run(model, run, answer, options.csv, page_template, recording.file());
   std::ranges::move(recorded.files(scene, run.snapshots), std::back_inserter(files));
   write_then_print(
       options.quiet, [&] { folder.write(files); },
       [&] {
-        print_summary(scene, run, outflow, expected.rate);
-        if (sown) print_drill(*sown, scene.space);
+        print_summary(scene, run, answer.outflow, answer.expected);
+        if (answer.sown) print_drill(*answer.sown, scene.space);
         if (run.phase_times) print_profile(run);
       });
   if (run.status == RunStatus::finished && (options.resume || simulation.on_checkpoint)) checkpoint.remove();

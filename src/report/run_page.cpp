@@ -193,9 +193,15 @@ std::vector<Remark> remarks_about(const Scene& scene) {
   return remarks;
 }
 
+void put_first(const std::vector<std::string>& warnings, Outflow& outflow) {
+  std::vector<Doubt> doubts;
+  for (const std::string& text : warnings) doubts.push_back({DoubtKind::unlikely_scene, text});
+  outflow.doubts.insert(outflow.doubts.begin(), doubts.begin(), doubts.end());
+}
+
 std::string run_page_data(const RunPage& page) {
   const Scene& scene = page.model.scene;
-  std::vector<Remark> remarks = remarks_about(scene);
+  std::vector<Remark> remarks;
   for (const Doubt& doubt : page.outflow.doubts) remarks.push_back(remark_of(doubt));
   if (scene.space == Space::two_dimensional && page.outflow.depth_factor)
     remarks.push_back({Severity::mild,

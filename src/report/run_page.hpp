@@ -26,6 +26,9 @@ struct RunPage {
 /// What is to be said of a scene before it is run.
 std::vector<Remark> remarks_about(const Scene& scene);
 
+/// Puts what can hardly be meant in a run's scene before what speaks against its outflow.
+void put_first(const std::vector<std::string>& warnings, Outflow& outflow);
+
 /// The page's numbers and texts (page_text).
 std::string run_page_data(const RunPage& page);
 

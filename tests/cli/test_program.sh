@@ -170,6 +170,19 @@ expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" accuracy seede
   --set "tray.holes.width=3 mm"
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" run seeder.toml --out narrow-run --set "tray.holes.width=3 mm"
 grep -q "is narrower" narrow-run/run.json || fail "run.json does not carry the warning"
+# Once in each answer, also in that of a run of a study, and of accuracy.
+a_narrow_run=$(basename "$(find narrow/cases -name '*.case' | sort | head -n 1)" .case)
+expect 0 "reports: narrow-one" export narrow --run "$a_narrow_run" --out narrow-one
+accuracy=(--integrator velocity-verlet --slip-speed "20 mm/s" --set "tray.holes.width=3 mm")
+expect 0 "^(Note|Doubtful): tray.holes.width: 3 mm is narrower" accuracy seeder.toml --out narrow-accuracy --steps-per-contact 20 \
+  --shell-compression 1e-3 --replicates 1 "${accuracy[@]}"
+expect 0 "^(Note|Doubtful): tray.holes.width: 3 mm is narrower" accuracy seeder.toml --out narrow-promise --within "50 %" \
+  --set "tray.holes.width=3 mm"
+for file in narrow-run/report.json narrow-run/run.json narrow-one/report.json narrow-one/run.json narrow-accuracy/report.json \
+  narrow-promise/report.json narrow-promise/promise.json; do
+  told=$(grep -oE '"text": ?"tray.holes.width' $file | wc -l)
+  [ "$told" -eq 1 ] || fail "$file tells $told times of a narrow hole"
+done
 
 # A drawing with a line across the first hole and another on a layer that is switched off.
 # shellcheck disable=SC2016  # $INSUNITS is a name of the drawing

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "plan/scene_warnings.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -31,7 +33,8 @@ class RunPageData : public testing::Test {
   }
   nlohmann::json data() const {
     const Model model = prepare(scene);
-    const Outflow outflow = measure_outflow(scene, run);
+    Outflow outflow = measure_outflow(scene, run);
+    put_first(scene_warnings(scene), outflow);
     const std::optional<DrillMetrics> drill;
     const std::string expected;
     return nlohmann::json::parse(run_page_data({model, run, outflow, drill, expected}));
@@ -85,7 +88,7 @@ TEST_F(RunPageData, SettingsAreWrittenAsAllNumbersAre) {
 TEST_F(RunPageData, WhatCanHardlyBeMeantIsADoubtToo) {
   scene.tray.holes[0].width = 3e-3;  // narrower than a seed
   const auto remarks = data()["remarks"];
-  ASSERT_EQ(remarks.size(), 2U);
+  ASSERT_EQ(remarks.size(), 2U) << "once, and that a slice stands for the whole width";
   EXPECT_THAT(remarks[0]["text"].get<std::string>(), testing::StartsWith("tray.holes"));
 }
 

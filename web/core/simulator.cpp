@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "outflow/outflow.hpp"
+#include "plan/scene_warnings.hpp"
 #include "report/page.hpp"
 #include "report/run_page.hpp"
 #include "scene/measuring_window.hpp"
@@ -132,7 +133,9 @@ EMSCRIPTEN_KEEPALIVE const char* outcome() {
   static std::string text;
   return text_of(text, [] {
     const Run run = simulation->result();
-    const Outflow outflow = measure_outflow(simulation->model().scene, run);
+    const Scene& scene = simulation->model().scene;
+    Outflow outflow = measure_outflow(scene, run);
+    put_first(scene_warnings(scene), outflow);
     const std::optional<DrillMetrics> drill;
     const std::string expected;  // of trays in space alone
     return run_page_data({simulation->model(), run, outflow, drill, expected});
