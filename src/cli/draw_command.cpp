@@ -106,6 +106,18 @@ Drawn simulated(const DrawOptions& options) {
   return drawn;
 }
 
+/// Throws InputError where a time that was asked for lies beyond what a page keeps of its run, which was cut short.
+void refuse_beyond(const std::vector<Frame>& frames, const std::vector<double>& times, const DrawOptions& options) {
+  double gap = 0;
+  for (std::size_t k = 1; k < frames.size(); ++k) gap = std::max(gap, frames[k].bed.time - frames[k - 1].bed.time);
+  const double from = frames.front().bed.time, to = frames.back().bed.time;
+  const bool early = !(options.at.empty() && options.from.empty()) && times.front() < from - gap;
+  const bool late = !(options.at.empty() && options.to.empty()) && times.back() > to + gap;
+  if (early || late)
+    throw InputError(fmt::format("{}: its page keeps the run from {:.3f} to {:.3f} s, not at {:g} s",
+                                 options.common.file, from, to, early ? times.front() : times.back()));
+}
+
 /// What a run's folder keeps.
 Drawn kept(const DrawOptions& options) {
   const fs::path folder = options.common.file;
@@ -120,6 +132,7 @@ Drawn kept(const DrawOptions& options) {
   KeptFrames all = kept_frames(folder, scene);
   if (picture.colour_by == ColourBy::speed && !all.have_speeds)
     throw InputError(fmt::format("{}: its page keeps no speeds; draw its seeder instead", folder.string()));
+  if (!all.have_speeds) refuse_beyond(all.frames, times, options);
   return {scene, nearest_frames(std::move(all.frames), times)};
 }
 

@@ -228,7 +228,11 @@ int run_scene(const RunOptions& options) {
   if (options.resume) simulation.from = checkpoint.read(model, options.random_seed);
   if (recorded.wanted()) simulation.on_record = [&](Simulation& now) { recorded.note(now); };
   Recording recording(model);
-  if (options.html) simulation.observers = recording.observers();
+  const bool records = options.html && !simulation.from;  // of the rest alone it would be taken for the run's
+  if (records) simulation.observers = recording.observers();
+  if (options.html && !records && !options.quiet)
+    print_notes({fmt::format("the page of a resumed run has no replay and no map; {} makes the run again for them",
+                             typed_line({"report", folder.path().string()}))});
   Run run;
   {
     Progress progress(text_unless(options.quiet), static_cast<double>(model.step.steps), "steps");
@@ -237,7 +241,7 @@ int run_scene(const RunOptions& options) {
   }
   const RunAnswer answer = answer_of_run(scene, run, warnings, knowledge, drill);
   std::vector<OutputFile> files =
-      files_of_run(model, run, answer, options.csv, page_template, recording.file());
+      files_of_run(model, run, answer, options.csv, page_template, records ? recording.file() : "");
   std::ranges::move(recorded.files(scene, run.snapshots), std::back_inserter(files));
   write_then_print(
       options.quiet, [&] { folder.write(files); },
