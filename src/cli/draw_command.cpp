@@ -57,8 +57,9 @@ std::vector<double> wanted_times(const DrawOptions& options, double duration) {
 
 /// Where the picture goes; its name's end says what it is.
 fs::path picture_path(const DrawOptions& options) {
-  const fs::path named = fs::path(options.common.file).lexically_normal();
-  const fs::path stem = named.has_filename() ? named.stem() : named.parent_path().stem();
+  fs::path named = fs::absolute(options.common.file).lexically_normal();  // "." has a name too
+  if (!named.has_filename()) named = named.parent_path();
+  const fs::path stem = fs::is_directory(named) ? named.filename() : named.stem();
   const std::string of_chart = options.chart.empty() ? "" : "-" + options.chart;
   if (options.common.out.empty()) return stem.string() + of_chart + (options.film ? ".gif" : ".png");
   fs::path path = options.common.out;
