@@ -5,6 +5,7 @@
 #include "files/atomic_file.hpp"
 #include "files/whole_file.hpp"
 #include "report/page.hpp"
+#include "report/run_data_check.hpp"
 #include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
 
@@ -39,12 +40,15 @@ std::optional<Json> kept_page_data(const std::filesystem::path& folder) {
   std::filesystem::path read = folder / page_data_name;
   try {
     Json data = parse_json<Json>(*text);
+    if (data.at("kind") == "run") check_run_data(data);
     if (data.at("kind") != "accuracy") return data;
     read = folder / page_times_name;
     if (const auto times = text_of_file_or_none(read)) add_times(data, parse_json<Json>(*times));
     return data;
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: was not written by vibrosow: {}", read.string(), error.what()));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: was not written by this version of vibrosow: {}", read.string(), error.what()));
   }
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "plan/scene_warnings.hpp"
+#include "report/run_data_check.hpp"
+#include "scene/input_error.hpp"
 
 namespace vibrosow {
 namespace {
@@ -90,6 +92,18 @@ TEST_F(RunPageData, WhatCanHardlyBeMeantIsADoubtToo) {
   const auto remarks = data()["remarks"];
   ASSERT_EQ(remarks.size(), 2U) << "once, and that a slice stands for the whole width";
   EXPECT_THAT(remarks[0]["text"].get<std::string>(), testing::StartsWith("tray.holes"));
+}
+
+TEST_F(RunPageData, IsWhatACheckOfItTakes) {
+  const auto check = [&] { check_run_data(nlohmann::ordered_json::parse(data().dump())); };
+  EXPECT_NO_THROW(check());
+  scene.space = Space::three_dimensional;
+  scene.tray.motion = HarmonicMotion{0, 0.01, 9};
+  EXPECT_NO_THROW(check());
+  run.status = RunStatus::interrupted, run.end_time = 0, run.steps = 0, run.events.clear();
+  EXPECT_NO_THROW(check());
+  run.end_time = -1;
+  EXPECT_THROW(check(), InputError);
 }
 
 TEST_F(RunPageData, MetricsOfTheWholeTrayFrom2DAreRemarkedOn) {
