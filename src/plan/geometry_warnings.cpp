@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -15,7 +16,9 @@
 #include "scene/plane_alone.hpp"
 #include "scene/seed_lot.hpp"
 #include "vessel/bounding_box.hpp"
+#include "vessel/hopper_images.hpp"
 #include "vessel/vessel_motion.hpp"
+#include "vessel/vessel_walls.hpp"
 #include "vessel/wall_points.hpp"
 
 namespace vibrosow {
@@ -54,11 +57,16 @@ std::optional<Stretch> near_floor(const Eigen::Vector2d& a, const Eigen::Vector2
   return part.from < part.to ? std::optional(part) : std::nullopt;
 }
 
-/// Over which stretches of the floor, along it or across, a piece that is drawn out lies near it.
-std::vector<Stretch> over_floor(const WallPiece& piece, Near near) {
+/// Of a piece that is not turned, see `wall_points`.
+std::vector<Eigen::Vector2d> points_of(const WallPiece& piece) {
   WallSegment wall{piece.a, piece.b, ""};
   wall.centre = piece.centre, wall.radius = piece.radius, wall.from = piece.from, wall.to = piece.to;
-  const std::vector<Eigen::Vector2d> points = wall_points(wall);
+  return wall_points(wall);
+}
+
+/// Over which stretches of the floor, along it or across, a piece that is drawn out lies near it.
+std::vector<Stretch> over_floor(const WallPiece& piece, Near near) {
+  const std::vector<Eigen::Vector2d> points = points_of(piece);
   std::vector<Stretch> stretches;
   for (std::size_t k = 1; k < points.size(); ++k)
     if (const auto part = near_floor(points[k - 1], points[k], near)) {
@@ -74,12 +82,16 @@ using Covered = std::optional<double>;
 
 constexpr double rim = 0.02;  // of a hole's width, or its length across: what reaches no further in is beside it
 
-Covered covered_by_drawn_out(const WallPiece& piece, const Hole& hole, Near near) {
-  const bool along = piece.drawn_out == DrawnOut::along;
+/// A piece each time that it stands beside a hole, in the frame of the hole's vessel.
+using Copies = std::vector<WallPiece>;
+
+Covered covered_by_drawn_out(const Copies& copies, const Hole& hole, Near near) {
+  const bool along = copies.front().drawn_out == DrawnOut::along;
   const double middle = along ? hole.across : hole.centre;
   const double width = along && hole.shape == HoleShape::slot ? hole.across_length : hole.width;
   const double left = middle - width / 2, right = middle + width / 2, slack = rim * width;
-  std::vector<Stretch> over = over_floor(piece, near);
+  std::vector<Stretch> over;
+  for (const WallPiece& piece : copies) std::ranges::copy(over_floor(piece, near), std::back_inserter(over));
   std::ranges::sort(over, {}, &Stretch::from);
   Covered covered;
   double reached = left;
@@ -92,66 +104,239 @@ Covered covered_by_drawn_out(const WallPiece& piece, const Hole& hole, Near near
   return covered;
 }
 
-/// Whether a piece turned about an axis lies near the floor at a place of it (m).
-bool is_over(const WallPiece& piece, double x, double z, Near near) {
-  if (piece.axis == PieceAxis::upright) {
-    const auto part = near_floor(piece.a, piece.b, near);
-    const double away = portable_math::hypot(x - piece.about->x(), z - piece.about->y());
-    const double one = piece.a.x() + (part ? part->from : 0) * (piece.b.x() - piece.a.x());
-    const double other = piece.a.x() + (part ? part->to : 0) * (piece.b.x() - piece.a.x());
-    return part && away >= std::min(one, other) && away <= std::max(one, other);
-  }
-  const double along = piece.b.y() - piece.a.y(), part = along == 0 ? 0 : (x - piece.a.y()) / along;
-  if (along == 0 || part < 0 || part > 1) return false;
-  const double radius = piece.a.x() + part * (piece.b.x() - piece.a.x()), aside = z - piece.about->y();
-  if (std::abs(aside) > radius) return false;
-  const double up = std::sqrt(radius * radius - aside * aside);
-  const auto is_near = [near](double y) { return y < near.above && y > -near.below; };
-  return is_near(piece.about->x() + up) || is_near(piece.about->x() - up);
+/// How far (m) from its upright axis a piece lies near the floor.
+std::optional<Stretch> radii_near_floor(const WallPiece& piece, Near near) {
+  const auto part = near_floor(piece.a, piece.b, near);
+  if (!part) return std::nullopt;
+  const double outwards = piece.b.x() - piece.a.x();
+  const double one = piece.a.x() + part->from * outwards, other = piece.a.x() + part->to * outwards;
+  return Stretch{std::min(one, other), std::max(one, other)};
 }
 
-/// Places of a hole are looked at on a grid; a thin wall that stands in the hole passes between them and is not seen.
-Covered covered_by_turned(const WallPiece& piece, const Hole& hole, Near near) {
-  constexpr int rows = 25;
-  const bool round = hole.shape == HoleShape::round;
-  const double half_z = 0.5 * (round ? hole.width : hole.across_length);
+/// How far (m) to either side of its axis along the vessel a piece lies near the floor, anywhere in a stretch of that.
+std::optional<Stretch> aside_near_floor(const WallPiece& piece, const Stretch& x, Near near) {
+  const double left = std::max(x.from, std::min(piece.a.y(), piece.b.y()));
+  const double right = std::min(x.to, std::max(piece.a.y(), piece.b.y()));
+  if (left > right) return std::nullopt;
+  const double along = piece.b.y() - piece.a.y(), outwards = piece.b.x() - piece.a.x();
+  const auto radius_at = [&](double at) { return piece.a.x() + (at - piece.a.y()) / along * outwards; };
+  const double one = along == 0 ? piece.a.x() : radius_at(left), other = along == 0 ? piece.b.x() : radius_at(right);
+  const double low = -near.below - piece.about->x(), high = near.above - piece.about->x();
+  const double nearest = std::max({0.0, low, -high}), furthest = std::max(std::abs(low), std::abs(high));
+  const double least = std::min(one, other), most = std::max(one, other);
+  if (most <= nearest) return std::nullopt;
+  return Stretch{std::sqrt(std::max(0.0, least * least - furthest * furthest)),
+                 std::sqrt(most * most - nearest * nearest)};
+}
+
+/// Whether a piece turned about an axis lies near the floor at a place of it (m).
+bool is_over(const WallPiece& piece, double x, double z, Near near) {
+  const bool upright = piece.axis == PieceAxis::upright;
+  const std::optional<Stretch> reach = upright ? radii_near_floor(piece, near) : aside_near_floor(piece, {x, x}, near);
+  const double away =
+      upright ? portable_math::hypot(x - piece.about->x(), z - piece.about->y()) : std::abs(z - piece.about->y());
+  return reach && away >= reach->from && away <= reach->to;
+}
+
+/// How far (m) the places within `half` of a middle are from zero.
+Stretch distances(double middle, double half) {
+  return {std::max(0.0, std::abs(middle) - half), std::abs(middle) + half};
+}
+
+constexpr int rows = 25;  // of places in a hole, along it and across
+
+/// Half of a hole's length across (m) in a row of places, told from -1 to 1.
+double half_across(const Hole& hole, double row) {
+  return hole.shape == HoleShape::slot ? 0.5 * hole.across_length : 0.5 * hole.width * std::sqrt(1 - row * row);
+}
+
+/// Whether a piece turned about an axis lies near the floor anywhere in a hole, however thin it is.
+bool stands_in(const WallPiece& piece, Hole hole, Near near) {
+  hole.width *= 1 - 2 * rim, hole.across_length *= 1 - 2 * rim;
+  const auto overlap = [](const std::optional<Stretch>& one, const Stretch& other) {
+    return one && one->from < other.to && one->to > other.from;
+  };
+  const double half = 0.5 * hole.width;
+  if (piece.axis == PieceAxis::upright) {
+    const double aside = hole.centre - piece.about->x(), across = hole.across - piece.about->y();
+    Stretch away = distances(portable_math::hypot(aside, across), half);
+    if (hole.shape == HoleShape::slot) {
+      const Stretch x = distances(aside, half), z = distances(across, 0.5 * hole.across_length);
+      away = {portable_math::hypot(x.from, z.from), portable_math::hypot(x.to, z.to)};
+    }
+    return overlap(radii_near_floor(piece, near), away);
+  }
+  for (int i = 0; i < rows; ++i) {
+    const double row = (2 * i + 1.0) / rows - 1, x = hole.centre + row * half;
+    const Stretch z = distances(hole.across - piece.about->y(), half_across(hole, row));
+    if (overlap(aside_near_floor(piece, {x - half / rows, x + half / rows}, near), z)) return true;
+  }
+  return false;
+}
+
+/// By the places of a grid; a thin wall that passes between them stands in the hole.
+Covered covered_by_turned(const Copies& copies, const Hole& hole, Near near) {
   int places = 0, under = 0;
   for (int i = 0; i < rows; ++i)
     for (int k = 0; k < rows; ++k) {
       const double u = (2 * i + 1.0) / rows - 1, v = (2 * k + 1.0) / rows - 1;
+      const bool round = hole.shape == HoleShape::round;
       if (round && u * u + v * v > 1) continue;
+      const double x = hole.centre + u * hole.width / 2;
+      const double z = hole.across + v * 0.5 * (round ? hole.width : hole.across_length);
       ++places;
-      under += is_over(piece, hole.centre + u * hole.width / 2, hole.across + v * half_z, near) ? 1 : 0;
+      under += std::ranges::any_of(copies, [&](const WallPiece& piece) { return is_over(piece, x, z, near); }) ? 1 : 0;
     }
-  return under == 0 ? std::nullopt : Covered(static_cast<double>(under) / places);
+  if (under > 0) return static_cast<double>(under) / places;
+  const bool stands = std::ranges::any_of(copies, [&](const WallPiece& piece) { return stands_in(piece, hole, near); });
+  return stands ? Covered(0) : std::nullopt;
 }
 
-/// The holes that are covered, if only in part.
-std::vector<bool> warn_of_covered_holes(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
-  std::vector<bool> all_covered(vessel.holes.size(), false);
-  double seed = std::numeric_limits<double>::infinity();
-  for (const SeedLot& lot : scene.lots) seed = std::min(seed, mean_thickness(lot));
-  for (std::size_t k = 0; k < vessel.pieces.size(); ++k) {
-    const WallPiece& piece = vessel.pieces[k];
+/// `by`: m, along, up and across.
+WallPiece shifted(WallPiece piece, const Eigen::Vector3d& by) {
+  if (!piece.about) {
+    const Eigen::Vector2d shift(piece.drawn_out == DrawnOut::along ? by.z() : by.x(), by.y());
+    piece.a += shift, piece.b += shift, piece.centre += shift;
+    return piece;
+  }
+  const bool upright = piece.axis == PieceAxis::upright;
+  *piece.about += Eigen::Vector2d(upright ? by.x() : by.y(), by.z());
+  const double along_axis = upright ? by.y() : by.x();
+  piece.a.y() += along_axis, piece.b.y() += along_axis;
+  return piece;
+}
+
+/// A vessel's piece, and where it is periodic those one period to either side.
+Copies with_images(const Vessel& vessel, const WallPiece& piece) {
+  Copies copies;
+  const int most_x = vessel.sides == Sides::periodic ? 1 : 0, most_z = vessel.front_and_back == Sides::periodic ? 1 : 0;
+  for (int i = -most_x; i <= most_x; ++i)
+    for (int k = -most_z; k <= most_z; ++k)
+      copies.push_back(shifted(piece, {i * vessel.length, 0, k * vessel.depth.value_or(0)}));
+  return copies;
+}
+
+/// Two vessels as they stand at the start.
+struct SideBySide {
+  const Vessel &own, &other;
+  Pose of_own = vessel_pose(own, 0), of_other = vessel_pose(other, 0);
+
+  /// Where a place of the one (m) is in the other.
+  Eigen::Vector3d in_own(const Eigen::Vector3d& place) const {
+    return point_in_vessel(own, of_own, point_in_lab(other, of_other, place));
+  }
+  Eigen::Vector3d in_other(const Eigen::Vector3d& place) const {
+    return point_in_vessel(other, of_other, point_in_lab(own, of_own, place));
+  }
+};
+
+/// Whether a piece of the other vessel that is drawn out in 3D reaches as far across, or along, as a hole.
+bool reaches_to(const WallPiece& piece, const Hole& hole, const SideBySide& vessels) {
+  const Vessel& other = vessels.other;
+  const Eigen::Vector3d at = vessels.in_other({hole.centre, 0, hole.across});
+  if (piece.about) return true;
+  if (piece.drawn_out == DrawnOut::along)
+    return other.sides == Sides::periodic || (at.x() > 0 && at.x() < other.length);
+  return other.front_and_back == Sides::periodic || (at.z() > 0 && at.z() < *other.depth);
+}
+
+/// The copies of a piece of the other vessel in the frame of the hole's. Where that leans another way, only of pieces
+/// of the plane, arcs as lines between points of theirs.
+Copies seen_from_own(const WallPiece& piece, const SideBySide& vessels) {
+  Copies copies;
+  for (const WallPiece& one : with_images(vessels.other, piece)) {
+    if (vessels.own.tilt == vessels.other.tilt) {
+      copies.push_back(shifted(one, vessels.in_own(Eigen::Vector3d::Zero())));
+    } else if (is_of_plane(one)) {
+      const std::vector<Eigen::Vector2d> points = points_of(one);
+      const auto in_own = [&](const Eigen::Vector2d& at) {
+        return Eigen::Vector2d(vessels.in_own({at.x(), at.y(), 0}).head<2>());
+      };
+      for (std::size_t k = 1; k < points.size(); ++k)
+        copies.push_back({.a = in_own(points[k - 1]), .b = in_own(points[k])});
+    }
+  }
+  return copies;
+}
+
+/// Warns of pieces over a vessel's holes and notes these, if they are covered only in part.
+class CoveredHoles {
+ public:
+  CoveredHoles(const Scene& scene, const Vessel& vessel)
+      : vessel_(vessel), is_3d_(scene.space == Space::three_dimensional), covered_(vessel.holes.size(), false) {
+    for (const SeedLot& lot : scene.lots) seed_ = std::min(seed_, mean_thickness(lot));
+  }
+
+  void warn_of_own(Warnings& warnings) {
+    for (std::size_t k = 0; k < vessel_.pieces.size(); ++k) {
+      const Copies copies = with_images(vessel_, vessel_.pieces[k]);
+      const std::string holes = beside([&](const Hole&) { return copies; });
+      if (!holes.empty())
+        warnings.push_back(
+            fmt::format("{} covers {}: what is drawn across a hole is a wall there", name_of_piece(vessel_, k), holes));
+    }
+  }
+
+  /// `others`: another vessel, and its images, which have as many pieces. Of what turns over and over nothing is said.
+  void warn_of_pieces_of(const std::vector<Vessel>& others, Warnings& warnings) {
+    if (turns_steadily(vessel_) || turns_steadily(others.front())) return;
+    std::vector<SideBySide> stand;
+    for (const Vessel& other : others) stand.push_back({vessel_, other});
+    for (std::size_t k = 0; k < others.front().pieces.size(); ++k) {
+      std::vector<Copies> of_each;
+      for (const SideBySide& one : stand) of_each.push_back(seen_from_own(one.other.pieces[k], one));
+      const std::string holes = beside([&](const Hole& hole) {
+        Copies near_hole;
+        for (std::size_t i = 0; i < stand.size(); ++i)
+          if (!is_3d_ || reaches_to(others[i].pieces[k], hole, stand[i]))
+            std::ranges::copy(of_each[i], std::back_inserter(near_hole));
+        return near_hole;
+      });
+      if (!holes.empty())
+        warnings.push_back(
+            fmt::format("{} lies, as the vessels stand at the start, across the {}'s {}: what is drawn across a hole "
+                        "is a wall there",
+                        name_of_piece(others.front(), k), vessel_.name, holes));
+    }
+  }
+
+  const std::vector<bool>& covered() const { return covered_; }
+
+ private:
+  /// "hole 1, hole 3 (50 % of it)", of what `copies_at(hole)` are beside; empty: of none.
+  template <class CopiesAt>
+  std::string beside(CopiesAt copies_at) {
     std::string holes;
-    for (std::size_t h = 0; h < vessel.holes.size(); ++h) {
-      const Hole& hole = vessel.holes[h];
+    for (std::size_t h = 0; h < vessel_.holes.size(); ++h) {
+      const Hole& hole = vessel_.holes[h];
+      const Copies copies = copies_at(hole);
+      if (copies.empty()) continue;
       // Nothing comes from aside between the floor and what lies half a seed over it, and nothing leaves between what
       // lies a seed under the hole and the hole.
-      const Near near{0.5 * seed, hole.thickness + seed};
-      const Covered covered =
-          !plane_alone && piece.about ? covered_by_turned(piece, hole, near) : covered_by_drawn_out(piece, hole, near);
-      if (!covered) continue;
-      all_covered[h] = true;
+      const Near near{0.5 * seed_, hole.thickness + seed_};
+      const bool is_turned = !plane_alone && copies.front().about;
+      const Covered part = is_turned ? covered_by_turned(copies, hole, near) : covered_by_drawn_out(copies, hole, near);
+      if (!part) continue;
+      covered_[h] = true;
       holes += fmt::format("{}hole {}", holes.empty() ? "" : ", ", h + 1);
-      if (*covered < 0.995)
-        holes += *covered < 0.005 ? " (stands in it)" : fmt::format(" ({:.0f} % of it)", 100 * *covered);
+      if (*part < 0.995) holes += *part < 0.005 ? " (stands in it)" : fmt::format(" ({:.0f} % of it)", 100 * *part);
     }
-    if (!holes.empty())
-      warnings.push_back(
-          fmt::format("{} covers {}: what is drawn across a hole is a wall there", name_of_piece(vessel, k), holes));
+    return holes;
   }
-  return all_covered;
+
+  const Vessel& vessel_;
+  bool is_3d_;
+  std::vector<bool> covered_;
+  double seed_ = std::numeric_limits<double>::infinity();  // m, the thinnest
+};
+
+/// The holes that are covered, if only in part, by pieces of the vessel or of `others`: the other one and its images.
+std::vector<bool> warn_of_covered_holes(const Scene& scene, const Vessel& vessel, const std::vector<Vessel>& others,
+                                        Warnings& warnings) {
+  CoveredHoles holes(scene, vessel);
+  holes.warn_of_own(warnings);
+  if (!others.empty()) holes.warn_of_pieces_of(others, warnings);
+  return holes.covered();
 }
 
 /// Whether a seed can come to the middle of a hole from the vessel's open top, or to a place beside it.
@@ -247,6 +432,33 @@ void warn_of_large_pieces(const Vessel& vessel, Warnings& warnings) {
                                    vessel.name, in_mm(size), vessel.name, in_mm(vessel.length), in_mm(vessel.height)));
 }
 
+/// Those of a periodic vessel stand again one period to either side, and no further.
+void warn_of_pieces_beyond_periods(const Vessel& vessel, Warnings& warnings) {
+  constexpr double rounding = 1e-9;  // m
+  for (std::size_t k = 0; k < vessel.pieces.size(); ++k) {
+    const WallPiece& piece = vessel.pieces[k];
+    const Extent all = extent({piece});
+    const bool is_along = piece.drawn_out == DrawnOut::along;
+    const auto warn = [&](Sides sides, double low, double high, double period, const char* direction) {
+      const bool beyond = sides == Sides::periodic && (low < -period - rounding || high > 2 * period + rounding);
+      if (beyond)
+        warnings.push_back(
+            fmt::format("{} reaches from {:.4g} mm to {:.4g} mm {} the periodic {}: what lies before {:.4g} mm or "
+                        "beyond {:.4g} mm, "
+                        "further than a period beside it, is no wall anywhere; draw it in the {}",
+                        name_of_piece(vessel, k), 1e3 * low, 1e3 * high, direction, vessel.name, -1e3 * period,
+                        2e3 * period, vessel.name));
+      return beyond;
+    };
+    const double radius = std::max(piece.a.x(), piece.b.x()), depth = vessel.depth.value_or(0);
+    if (!is_along && warn(vessel.sides, all.low.x(), all.high.x(), vessel.length, "along")) return;
+    if (is_along && warn(vessel.front_and_back, all.low.x(), all.high.x(), depth, "across")) return;
+    if (piece.about &&
+        warn(vessel.front_and_back, piece.about->y() - radius, piece.about->y() + radius, depth, "across"))
+      return;  // one of a drawing says enough
+  }
+}
+
 /// The counting line is the tray's.
 void warn_of_pieces_below(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
   if (turns_steadily(scene.tray)) return;
@@ -279,11 +491,14 @@ void warn_of_pieces_below(const Scene& scene, const Vessel& vessel, Warnings& wa
 std::vector<std::string> geometry_warnings(const Scene& scene) {
   Warnings warnings;
   std::vector<const Vessel*> vessels = {&scene.tray};
-  if (scene.hopper) vessels.push_back(&*scene.hopper);
+  std::vector<Vessel> hoppers = hopper_images(scene);
+  if (scene.hopper) vessels.push_back(&*scene.hopper), hoppers.insert(hoppers.begin(), *scene.hopper);
   for (const Vessel* vessel : vessels) {
-    const std::vector<bool> covered = warn_of_covered_holes(scene, *vessel, warnings);
+    const std::vector<Vessel> others = vessel == &scene.tray ? hoppers : std::vector<Vessel>{scene.tray};
+    const std::vector<bool> covered = warn_of_covered_holes(scene, *vessel, others, warnings);
     warn_of_holes_shut_off(scene, *vessel, covered, warnings);
     warn_of_large_pieces(*vessel, warnings);
+    warn_of_pieces_beyond_periods(*vessel, warnings);
     warn_of_pieces_below(scene, *vessel, warnings);
   }
   if (const std::optional<VesselsMeet> met = first_meeting_of_vessels(scene))

@@ -7,8 +7,9 @@
 
 namespace vibrosow {
 
-/// What in the walls of a scene can hardly be meant: pieces over holes, vessels that pass through each other, pieces
-/// below the counting line, pieces far larger than their vessel. Sentences that begin with the key.
+/// What in the walls of a scene can hardly be meant: pieces over holes, of the same vessel or, as they stand at the
+/// start, the other; vessels that pass through each other; pieces below the counting line, far larger than their
+/// vessel, or further away than its next period. Sentences that begin with the key.
 std::vector<std::string> geometry_warnings(const Scene& scene);
 
 }  // namespace vibrosow

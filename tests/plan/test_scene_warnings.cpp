@@ -20,6 +20,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
+using testing::SizeIs;
 using testing::StartsWith;
 
 constexpr double diameter = 4e-3;
@@ -399,6 +400,72 @@ TEST(SceneWarnings, ATurnedPieceOverAHole) {
   }
 }
 
+TEST(SceneWarnings, ATubeInAHole) {
+  const auto stands = ElementsAre(HasSubstr("piece 1 covers hole 2 (stands in it):"));
+  for (const HoleShape shape : {HoleShape::slot, HoleShape::round}) {
+    const Scene scene = sound_3d(shape);
+    for (const double radius : {0.003, 0.0031, 0.0049})
+      EXPECT_THAT(warnings_with(scene, {turned(radius, -0.005, radius, 0.03)}), stands) << radius;
+    EXPECT_THAT(warnings_with(scene, {turned(0.02, -0.005, 0.02, 0.03, PieceAxis::upright, {0.27, 0.03})}), stands);
+    // A thin disc upright across the hole; a wide cylinder along the tray whose side passes through the floor there.
+    EXPECT_THAT(warnings_with(scene, {turned(0, 0.2501, 0.01, 0.2501, PieceAxis::along, {0.001, 0.03})}), stands);
+    const auto wide = warnings_with(scene, {turned(0.01, 0.24, 0.01, 0.26, PieceAxis::along, {0, 0.0312})});
+    EXPECT_THAT(wide, SizeIs(shape == HoleShape::slot ? 1 : 0));
+    // Round it, above it, and beside it.
+    EXPECT_THAT(warnings_with(sound_3d(HoleShape::round), {turned(0.006, -0.005, 0.006, 0.03)}), IsEmpty());
+    EXPECT_THAT(warnings_with(scene, {turned(0.003, 0.01, 0.003, 0.03)}), IsEmpty());
+    EXPECT_THAT(warnings_with(scene, {turned(0.02, -0.005, 0.02, 0.03, PieceAxis::upright, {0.28, 0.03})}), IsEmpty());
+    EXPECT_THAT(warnings_with(scene, {turned(0, 0.26, 0.01, 0.26, PieceAxis::along, {0.001, 0.03})}), IsEmpty());
+  }
+}
+
+/// A periodic tray's pieces stand again a period on, along it and across.
+TEST(SceneWarnings, AnImageOfAPieceOverAHole) {
+  const auto first = ElementsAre(HasSubstr("piece 1 covers hole 1:")), last = ElementsAre(HasSubstr("covers hole 3:"));
+  for (Scene scene : {sound(), sound_3d(), sound_3d(HoleShape::round)}) {
+    scene.tray.holes[0].centre = 0.007, scene.tray.holes[2].centre = 0.493;
+    EXPECT_THAT(warnings_with(scene, {straight(0.49, 0.001, 0.4999, 0.001)}), ElementsAre(HasSubstr("hole 3 (")));
+    scene.tray.sides = Sides::periodic;
+    EXPECT_THAT(warnings_with(scene, {straight(0.5005, 0.001, 0.514, 0.001)}), first);
+    EXPECT_THAT(warnings_with(scene, {straight(-0.014, 0.001, -0.0005, 0.001)}), last);
+    if (scene.space == Space::two_dimensional) continue;
+    EXPECT_THAT(warnings_with(scene, {turned(0, 0, 0.04, 0, PieceAxis::upright, {0.507, 0.03})}),
+                ElementsAre(AllOf(HasSubstr("hole 1"), HasSubstr("hole 3"))));
+    EXPECT_THAT(warnings_with(scene, {turned(0.0019, 0.501, 0.0019, 0.513, PieceAxis::along, {0, 0.03})}),
+                ElementsAre(HasSubstr("covers hole 1 (")));
+  }
+  Scene deep = sound_3d(HoleShape::round);
+  deep.tray.front_and_back = Sides::periodic;
+  for (Hole& hole : deep.tray.holes) hole.across = 0.007;
+  EXPECT_THAT(warnings_with(deep, {turned(0, 0, 0.009, 0, PieceAxis::upright, {0.25, 0.067})}),
+              ElementsAre(HasSubstr("piece 1 covers hole 2:")));
+  WallPiece along = straight(0.0605, 0, 0.074, 0);
+  along.drawn_out = DrawnOut::along;
+  EXPECT_THAT(warnings_with(deep, {along}), ElementsAre(HasSubstr("covers hole 1, hole 2, hole 3:")));
+}
+
+TEST(SceneWarnings, PiecesBeyondTheNextPeriod) {
+  const auto beyond = Contains(HasSubstr("is no wall anywhere"));
+  for (Scene scene : {sound(), sound_3d()})
+    for (const double shift : {0.0, 0.52, -0.52, 0.8, -0.6}) {
+      scene.tray.sides = Sides::periodic;
+      EXPECT_THAT(warnings_with(scene, {straight(0.1 + shift, 0.05, 0.2 + shift, 0.05)}), IsEmpty()) << shift;
+    }
+  Scene scene = sound_3d();
+  EXPECT_THAT(warnings_with(scene, {straight(1.001, 0.05, 1.01, 0.05)}), Not(beyond));
+  EXPECT_THAT(warnings_with(scene, {turned(0.01, 0.05, 0.01, 0.06, PieceAxis::upright, {0.25, 0.125})}), Not(beyond));
+  scene.tray.sides = scene.tray.front_and_back = Sides::periodic;
+  EXPECT_THAT(warnings_with(scene, {straight(1.001, 0.05, 1.01, 0.05)}),
+              ElementsAre("tray.pieces: piece 1 reaches from 1001 mm to 1010 mm along the periodic tray: what lies "
+                          "before -500 mm or beyond 1000 mm, further than a period beside it, is no wall anywhere; "
+                          "draw it in the tray"));
+  EXPECT_THAT(warnings_with(scene, {straight(-0.51, 0.05, -0.4, 0.05)}), beyond);
+  EXPECT_THAT(warnings_with(scene, {turned(0.01, 0.05, 0.01, 0.06, PieceAxis::upright, {0.25, 0.125})}), beyond);
+  WallPiece along = straight(0.11, 0.05, 0.13, 0.05);
+  along.drawn_out = DrawnOut::along;
+  EXPECT_THAT(warnings_with(scene, {along}), beyond);
+}
+
 TEST(SceneWarnings, APieceAlongTheTrayOverAHole) {
   const auto along = [](WallPiece piece) {
     piece.drawn_out = DrawnOut::along;
@@ -538,6 +605,44 @@ TEST_P(VesselsThatMeet, WithTheirPieces) {
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
   scene.hopper->pieces = {straight(-0.021, -0.03, -0.021, 0)};
   EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("piece 1 and ")));
+}
+
+/// Of the one vessel over a hole of the other, as they stand at the start.
+TEST_P(VesselsThatMeet, APieceOfOneOverAHoleOfTheOther) {
+  const Scene clear = over(0.05);  // the outlet is 0.225 to 0.255 of the tray, a hole 0.244 to 0.256
+  const auto with = [&](const std::vector<WallPiece>& of_tray, const std::vector<WallPiece>& of_hopper,
+                        double tilt = 0) {
+    Scene scene = clear;
+    scene.tray.pieces = of_tray, scene.hopper->pieces = of_hopper, scene.tray.tilt = tilt;
+    return scene_warnings(scene);
+  };
+  const auto outlet = ElementsAre(
+      "tray.pieces: piece 1 lies, as the vessels stand at the start, across the hopper's hole 1: what is drawn across "
+      "a hole is a wall there");
+  EXPECT_THAT(with({straight(0.22, 0.049, 0.26, 0.049)}, {}), outlet);
+  EXPECT_THAT(with({straight(0.22, 0.045, 0.26, 0.045)}, {}), IsEmpty()) << "a seed below it";
+  EXPECT_THAT(with({straight(0.24, 0.049, 0.26, 0.049)}, {}), ElementsAre(HasSubstr("hopper's hole 1 (50 % of it)")));
+  EXPECT_THAT(with({}, {straight(0.04, -0.0499, 0.06, -0.0499)}),
+              ElementsAre(HasSubstr("hopper.pieces: piece 1 lies, as the vessels stand at the start, across the tray's "
+                                    "hole 2:")));
+  // Turned back by the tray's tilt, the line lies level under the outlet.
+  const double tilt = 0.1, c = std::cos(tilt), s = std::sin(tilt);
+  const auto level = [&](double x) { return Eigen::Vector2d(c * x + s * 0.049, -s * x + c * 0.049); };
+  EXPECT_THAT(with({WallPiece{.a = level(0.22), .b = level(0.26)}}, {}, tilt), Contains(HasSubstr("hopper's hole 1:")));
+  if (GetParam() == Space::two_dimensional) return;
+  EXPECT_THAT(with({turned(0, 0.049, 0.05, 0.049, PieceAxis::upright, {0.24, 0.03})}, {}), outlet);
+  Scene beside = clear;
+  beside.hopper->front = 0.07, beside.hopper->pieces = {straight(0.04, -0.0499, 0.06, -0.0499)};
+  EXPECT_THAT(scene_warnings(beside), Not(Contains(HasSubstr("tray's hole"))));
+}
+
+/// Over a periodic tray a hopper stands in every period.
+TEST_P(VesselsThatMeet, APieceOfTheNextHopperOverAHole) {
+  Scene scene = over(0.05);
+  scene.tray.sides = Sides::periodic, scene.tray.holes[2].centre = 0.493;
+  scene.hopper->origin.x() = 0;
+  scene.hopper->pieces = {straight(-0.014, -0.0499, 0, -0.0499)};
+  EXPECT_THAT(scene_warnings(scene), Contains(HasSubstr("across the tray's hole 3:")));
 }
 
 TEST(SceneWarnings, APieceThatPlugsAHoleFromBelow) {

@@ -142,15 +142,20 @@ std::string plate_not_warned_of(const Scene& scene, const std::vector<std::strin
       for (std::size_t h = 0; level && h < vessel.holes.size(); ++h) {
         const Hole& hole = vessel.holes[h];
         const double left = hole.centre - hole.width / 2, right = hole.centre + hole.width / 2, y = piece.a.y();
-        const double from = std::max(left, std::min(piece.a.x(), piece.b.x()));
-        const double to = std::min(right, std::max(piece.a.x(), piece.b.x()));
+        double over = -1;
+        for (const double shift : {0.0, -vessel.length, vessel.length}) {
+          if (shift != 0 && vessel.sides != Sides::periodic) continue;
+          const double from = std::max(left, std::min(piece.a.x(), piece.b.x()) + shift);
+          const double to = std::min(right, std::max(piece.a.x(), piece.b.x()) + shift);
+          over = std::max(over, to - from);
+        }
         // No seed comes between the floor and what is half a seed over it, or between a hole and what is a seed below.
         const bool shuts = y < 0.5 * thin - slack && y > -hole.thickness - thin + slack;
         const std::string covered = covered_by(warnings, vessel, k, h);
         const std::string what = vessel.name + " piece " + std::to_string(k + 1) + " at hole " + std::to_string(h + 1);
-        if ((!shuts || to < from) && !covered.empty()) return "warned of in vain: " + what;
-        if (shuts && to - from > 0.1 * hole.width && covered.empty()) return "not warned of: " + what;
-        const bool whole = to - from > 0.999 * hole.width;
+        if ((!shuts || over < 0) && !covered.empty()) return "warned of in vain: " + what;
+        if (shuts && over > 0.1 * hole.width && covered.empty()) return "not warned of: " + what;
+        const bool whole = over > 0.999 * hole.width;
         if (shuts && whole && covered.find('%') != std::string::npos) return "said to cover a part: " + what;
       }
     }
