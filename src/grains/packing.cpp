@@ -8,7 +8,6 @@
 #include "grains/pour.hpp"
 #include "grains/seats.hpp"
 #include "grains/size_distribution.hpp"
-#include "grains/turned_discs.hpp"
 #include "scene/input_error.hpp"
 #include "scene/mixture.hpp"
 #include "scene/plane_alone.hpp"
@@ -67,16 +66,6 @@ std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedL
 
 constexpr std::size_t large_bed = 20000;  // grains whose state is more than a core's cache holds
 
-std::vector<PackedGrain> pack_poured(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space,
-                                     const std::vector<int>& order, Random& random, StopRequest stop) {
-  const auto poured = plane_alone || space == Space::two_dimensional ? pour : pour_3d;
-  std::vector<PackedGrain> grains = poured(vessel, lots, order, random, stop);
-  for (const PackedGrain& grain : grains)
-    for (const ClumpDisc& disc : turned_discs(lots[static_cast<std::size_t>(grain.lot)], grain.size, grain.turned))
-      if (is_outside_of_drum(vessel, {grain.x + disc.x, grain.y + disc.y}, disc.radius)) refuse_fill(vessel);
-  return grains;
-}
-
 /// Lists a bed column by column instead of row by row, so that neighbours are near each other in memory.
 void order_by_columns(double width, std::vector<PackedGrain>& grains) {
   std::ranges::stable_sort(grains, {}, [width](const PackedGrain& grain) {
@@ -97,8 +86,9 @@ std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& 
   if (is_3d && diameter > *vessel.depth)
     throw InputError(fmt::format("{}.depth: a grain of {:.6g} mm does not fit in", vessel.name, diameter * 1e3));
   const std::vector<int> order = shuffled_lots(lots, vessel.fill->count, random);
+  const auto pour_in = plane_alone || !is_3d ? pour : pour_3d;
   std::vector<PackedGrain> grains =
-      poured ? pack_poured(vessel, lots, space, order, random, stop) : pack_rows(vessel, lots, space, order, random);
+      poured ? pour_in(vessel, lots, order, random, stop) : pack_rows(vessel, lots, space, order, random);
   constexpr double in_plane = 64, across_columns = 8;  // diameters
   if (grains.size() > large_bed) order_by_columns((is_3d ? across_columns : in_plane) * diameter, grains);
   return grains;

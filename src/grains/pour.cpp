@@ -7,11 +7,13 @@
 
 #include "grains/free_room.hpp"
 #include "grains/places.hpp"
+#include "grains/seats.hpp"
 #include "grains/size_distribution.hpp"
 #include "grains/turned_discs.hpp"
 #include "scene/seed_lot.hpp"
 #include "vessel/directions.hpp"
 #include "vessel/vessel_walls.hpp"
+#include "vessel/wall_points.hpp"
 
 namespace vibrosow {
 namespace {
@@ -238,34 +240,53 @@ Rest drop_and_search(const Heap& heap, double length, const SeedLot& lot, double
 
 }  // namespace
 
+Drops::Drops(const Vessel& vessel, Space space) {
+  if (vessel.box) return;
+  const BoundingBox box = reach_of(vessel, space);
+  const double depth = vessel.depth.value_or(0);
+  over_pieces_ = Plot{{std::max(0.0, box.low.x()), std::max(0.0, box.low.z())},
+                      {std::min(vessel.length, box.high.x()), std::min(depth, box.high.z())}};
+}
+
+bool reaches_out(const std::optional<DrumCircle>& drum, const Eigen::Vector2d& centre,
+                 const std::vector<ClumpDisc>& discs) {
+  return drum && std::ranges::any_of(discs, [&](const ClumpDisc& disc) {
+           return is_outside_of_drum(drum, centre + Eigen::Vector2d(disc.x, disc.y), disc.radius);
+         });
+}
+
 std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& lots, const std::vector<int>& order,
                               Random& random, StopRequest stop) {
   Heap heap(vessel.length, largest_disc(lots));
   add_slopes(heap, vessel, smallest_radius(lots));
   const bool only_drawn = is_only_drawn(vessel);
   const FreeRooms rooms(vessel, lots, Space::two_dimensional);
+  const std::optional<DrumCircle> drum = drum_of(vessel);
+  Drops drops(vessel, Space::two_dimensional);
   std::vector<PackedGrain> packed;
   for (const int lot : order) {
     stop.throw_if_set();
     const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
     const double size = draw_size(seeds, random), angle = draw_angle(seeds, random);
     const double radius = 0.5 * size * seeds.diameter;
-    const auto dropped = [&] {
-      const double x = random.uniform(radius, vessel.length - radius);
+    const auto drop = [&](const std::optional<Plot>& plot) {
+      const double most = vessel.length - radius;
+      const double x =
+          plot ? std::clamp(random.uniform(plot->low.x(), plot->high.x()), radius, most) : random.uniform(radius, most);
       return seeds.discs.empty() ? drop_and_roll(heap, vessel.length, x, radius)
                                  : drop_and_search(heap, vessel.length, seeds, size, x, angle, random);
     };
-    const auto falls_beside = [&](const Rest& at) {
-      if (!only_drawn) return false;
-      const ClumpDisc disc = thickest(turned_discs(seeds, size, {at.angle}));
-      return !rooms.of(disc.radius).holds({at.x + disc.x, at.y + disc.y, 0});
+    const auto lies_well = [&](const Rest& at) {
+      const TurnedSeed seed(seeds, size, at.angle);
+      if (at.y + seed.top > vessel.height || reaches_out(drum, {at.x, at.y}, seed.discs)) return false;
+      const ClumpDisc& disc = thickest(seed.discs);
+      return !only_drawn || rooms.of(disc.radius).holds({at.x + disc.x, at.y + disc.y, 0});
     };
-    Rest at = dropped();
-    for (int drop = 1; drop < most_drops && falls_beside(at); ++drop) at = dropped();
-    const TurnedSeed seed(seeds, size, at.angle);
-    if (at.y + seed.top > vessel.height || falls_beside(at)) refuse_fill(vessel);
-    for (const ClumpDisc& disc : seed.discs) heap.add({at.x + disc.x, at.y + disc.y, disc.radius});
-    packed.push_back({at.x, at.y, lot, size, {at.angle}});
+    const std::optional<Rest> at = drops.until(lies_well, drop);
+    if (!at) refuse_fill(vessel);
+    for (const ClumpDisc& disc : turned_discs(seeds, size, {at->angle}))
+      heap.add({at->x + disc.x, at->y + disc.y, disc.radius});
+    packed.push_back({at->x, at->y, lot, size, {at->angle}});
   }
   return packed;
 }

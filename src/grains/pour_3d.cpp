@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "grains/free_room.hpp"
@@ -34,24 +35,31 @@ class LowestPlace {
         heap_(heap),
         obstacles_(without_lid(vessel), Space::three_dimensional),
         rooms_(vessel, lots, Space::three_dimensional),
-        only_drawn_(is_only_drawn(vessel)) {}
+        only_drawn_(is_only_drawn(vessel)),
+        drum_(drum_of(vessel)),
+        drops_(vessel, Space::three_dimensional) {}
 
   /// Looked for anew where a seed came down nowhere: a piece that reaches the top is in its way, and it is wide, or it
-  /// fell beside the walls.
-  PlacedSeed find(const SeedLot& seeds, double size, Random& random) const {
-    PlacedSeed seed = found_below(seeds, size, random);
-    for (int drop = 1; drop < most_drops && std::isinf(seed.height); ++drop) seed = found_below(seeds, size, random);
-    return seed;
+  /// fell beside the walls; or where it rises above them, or reaches out of a drum. None: again and again.
+  std::optional<PlacedSeed> find(const SeedLot& seeds, double size, Random& random) {
+    const auto lies_well = [&](const PlacedSeed& seed) {
+      const bool is_below_top = std::ranges::all_of(
+          seed.balls, [&](const ClumpDisc& ball) { return seed.height + ball.y + ball.radius <= vessel_.height; });
+      return is_below_top && !reaches_out(drum_, {seed.place.x(), seed.height}, seed.balls);
+    };
+    return drops_.until(lies_well,
+                        [&](const std::optional<Plot>& plot) { return found_below(seeds, size, plot, random); });
   }
 
  private:
-  PlacedSeed found_below(const SeedLot& seeds, double size, Random& random) const {
+  PlacedSeed found_below(const SeedLot& seeds, double size, const std::optional<Plot>& plot, Random& random) const {
     constexpr double first = 1, growth = 1.6;  // step, in radii, and after one down
     const double radius = 0.5 * size * seeds.diameter;
     const bool turns = is_solid_clump(seeds);
     // After a step that fails, and the last. A clump has five directions to search, a ball two.
     const auto [shrinkage, last] = turns ? std::pair(0.97, 1e-2) : std::pair(0.85, 1e-3);
-    PlacedSeed lowest{random_place(vessel_, radius, random), 0, draw_turn(seeds, random), {}};
+    const FloorPlace fallen = plot ? place_in(*plot, radius, random) : random_place(vessel_, radius, random);
+    PlacedSeed lowest{fallen, 0, draw_turn(seeds, random), {}};
     lowest.balls = turned_discs(seeds, size, lowest.turned);
     lowest.height = height_of(lowest, std::numeric_limits<double>::infinity());
     PlacedSeed next = lowest;
@@ -67,6 +75,11 @@ class LowestPlace {
       step = lower ? std::min(first, growth * step) : shrinkage * step;
     }
     return lowest;
+  }
+
+  FloorPlace place_in(const Plot& plot, double radius, Random& random) const {
+    const double x = random.uniform(plot.low.x(), plot.high.x());
+    return between_ends(vessel_, radius, {x, random.uniform(plot.low.y(), plot.high.y())});
   }
 
   /// Turned on about any axis, by up to 120 degrees at a `step` of 1.
@@ -103,6 +116,8 @@ class LowestPlace {
   Obstacles obstacles_;
   FreeRooms rooms_;
   bool only_drawn_;
+  std::optional<DrumCircle> drum_;
+  Drops drops_;
 };
 
 }  // namespace
@@ -110,19 +125,19 @@ class LowestPlace {
 std::vector<PackedGrain> pour_3d(const Vessel& vessel, const std::vector<SeedLot>& lots, const std::vector<int>& order,
                                  Random& random, StopRequest stop) {
   Heap3d heap(vessel, largest_disc(lots));
-  const LowestPlace lowest(vessel, lots, heap);
+  LowestPlace lowest(vessel, lots, heap);
   std::vector<PackedGrain> packed;
   for (const int lot : order) {
     stop.throw_if_set();
     const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
     const double size = draw_size(seeds, random);
-    const PlacedSeed seed = lowest.find(seeds, size, random);
-    for (const ClumpDisc& ball : seed.balls) {
-      if (!(seed.height + ball.y + ball.radius <= vessel.height)) refuse_fill(vessel);
-      const FloorPlace place = seed.place_of(ball, vessel);
-      heap.add({place.x(), seed.height + ball.y, place.y()}, ball.radius);
+    const std::optional<PlacedSeed> seed = lowest.find(seeds, size, random);
+    if (!seed) refuse_fill(vessel);
+    for (const ClumpDisc& ball : seed->balls) {
+      const FloorPlace place = seed->place_of(ball, vessel);
+      heap.add({place.x(), seed->height + ball.y, place.y()}, ball.radius);
     }
-    packed.push_back({seed.place.x(), seed.height, lot, size, seed.turned, seed.place.y()});
+    packed.push_back({seed->place.x(), seed->height, lot, size, seed->turned, seed->place.y()});
   }
   return packed;
 }

@@ -16,11 +16,14 @@ namespace {
 class Room {
  public:
   Room(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space)
-      : vessel_(vessel), obstacles_(vessel, space), room_(vessel, space, most_half_width(lots)) {}
+      : vessel_(vessel),
+        obstacles_(vessel, space),
+        room_(vessel, space, most_half_width(lots)),
+        drum_(drum_of(vessel)) {}
 
   /// Whether a ball of diameter `clear` (m) has room at `seat`.
   bool holds(const Eigen::Vector3d& seat, double clear) const {
-    return obstacles_.distance(seat) >= 0.5 * clear && !is_outside_of_drum(vessel_, seat.head<2>(), 0.5 * clear) &&
+    return obstacles_.distance(seat) >= 0.5 * clear && !is_outside_of_drum(drum_, seat.head<2>(), 0.5 * clear) &&
            room_.holds(seat);
   }
 
@@ -28,6 +31,7 @@ class Room {
   const Vessel& vessel_;
   Obstacles obstacles_;
   FreeRoom room_;
+  std::optional<DrumCircle> drum_;
 };
 
 /// Places side by side along one direction of a vessel.
@@ -77,9 +81,8 @@ bool visit_seats(const Vessel& vessel, const std::vector<SeedLot>& lots, Space s
   return false;
 }
 
-bool is_outside_of_drum(const Vessel& vessel, const Eigen::Vector2d& seat, double radius) {
+bool is_outside_of_drum(const std::optional<DrumCircle>& drum, const Eigen::Vector2d& seat, double radius) {
   constexpr double slack = 1e-3;  // of the radius
-  const std::optional<DrumCircle> drum = drum_of(vessel);
   return drum && (seat - drum->centre).norm() + (1 - slack) * radius >= drum->radius;
 }
 

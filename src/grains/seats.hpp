@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 
@@ -23,7 +25,7 @@ struct SeatWidth {
 bool visit_seats(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space,
                  const std::function<bool(const Eigen::Vector3d&)>& visit);
 
-/// Whether a grain of `radius` (m) at `seat` does not lie within its drum, if the vessel is one.
-bool is_outside_of_drum(const Vessel& vessel, const Eigen::Vector2d& seat, double radius);
+/// Whether a grain of `radius` (m) at `seat` does not lie within a drum, if there is one.
+bool is_outside_of_drum(const std::optional<DrumCircle>& drum, const Eigen::Vector2d& seat, double radius);
 
 }  // namespace vibrosow

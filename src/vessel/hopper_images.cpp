@@ -11,9 +11,7 @@
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "vessel/bounding_box.hpp"
-#include "vessel/vessel_faces.hpp"
 #include "vessel/vessel_motion.hpp"
-#include "vessel/vessel_walls.hpp"
 #include "vessel/wall_points.hpp"
 
 namespace vibrosow {
@@ -29,20 +27,6 @@ Periods periods_of(const Scene& scene) {
   const bool across = scene.space == Space::three_dimensional && scene.tray.front_and_back == Sides::periodic &&
                       scene.hopper->front_and_back != Sides::periodic;
   return {along ? scene.tray.length : 0, across ? *scene.tray.depth : 0};
-}
-
-/// All walls, in the vessel's own frame, m.
-BoundingBox reach_of(const Vessel& vessel, Space space) {
-  BoundingBox box;
-  if (space == Space::two_dimensional) {
-    for (const WallSegment& wall : vessel_walls(vessel))
-      for (const Eigen::Vector2d& point : wall_points(wall)) box.include(Eigen::Vector3d(point.x(), point.y(), 0));
-    return box;
-  }
-  for (const Face& face : vessel_faces(vessel))
-    for (const auto& line : face_lines(face))
-      for (const Eigen::Vector3d& point : line) box.include(point);
-  return box;
 }
 
 /// At rest, where the tray's own frame begins.

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "portable_math/functions.hpp"
+#include "vessel/vessel_faces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -76,6 +77,19 @@ std::vector<WallSegment> walls_from_the_front(const Vessel& vessel) {
   }
   for (const double height : heights) walls.push_back({{0, height}, {vessel.length, height}, "edge", true});
   return walls;
+}
+
+BoundingBox reach_of(const Vessel& vessel, Space space) {
+  BoundingBox box;
+  if (space == Space::two_dimensional) {
+    for (const WallSegment& wall : vessel_walls(vessel))
+      for (const Eigen::Vector2d& point : wall_points(wall)) box.include(Eigen::Vector3d(point.x(), point.y(), 0));
+    return box;
+  }
+  for (const Face& face : vessel_faces(vessel))
+    for (const auto& line : face_lines(face))
+      for (const Eigen::Vector3d& point : line) box.include(point);
+  return box;
 }
 
 Vessel drawn_once(Vessel vessel) {

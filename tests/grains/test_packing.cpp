@@ -232,6 +232,59 @@ TEST(Packing, ADrumIsOneHoweverItsCircleIsDrawn) {
   }
 }
 
+/// On lifters at the axis and above it seeds lie outside of the circle, whose upper half is open to them.
+TEST(Packing, ADrumIsPouredIntoBesideItsLifters) {
+  Vessel drum = vessel(Packing::poured, 40);
+  drum.height = drum.length, drum.box = false;
+  for (const double height : {0.05, 0.07}) {
+    drum.pieces = {{.centre = {0.05, 0.05}, .radius = 0.05, .from = 0, .to = 2 * std::numbers::pi},
+                   {.a = {0.005, height}, .b = {0.02, height}},
+                   {.a = {0.08, height}, .b = {0.095, height}}};
+    for (std::uint64_t seed = 1; seed <= 10; ++seed)
+      for (const auto& lots : {one_lot(), hooks_and_balls()}) {
+        Random random(seed);
+        const std::vector<PackedGrain> packed = pack(drum, lots, Space::two_dimensional, random);
+        EXPECT_EQ(packed.size(), 40u);
+        for (const Disc& disc : discs_of(packed, lots))
+          EXPECT_LT(std::hypot(disc.x - 0.05, disc.y - 0.05), 0.05 - 0.99 * disc.radius);
+      }
+  }
+  drum.fill->count = 2000;
+  Random random(1);
+  EXPECT_THROW(pack(drum, one_lot(), Space::two_dimensional, random), InputError);
+}
+
+/// On a block seeds heap up, above the end walls while there is room beside.
+TEST(Packing, AHeapIsLevelledAtTheTop) {
+  Vessel block = vessel(Packing::poured, 183);
+  block.height = 0.06;
+  block.pieces = {
+      {.a = {0.03, 0}, .b = {0.03, 0.03}}, {.a = {0.03, 0.03}, .b = {0.07, 0.03}}, {.a = {0.07, 0.03}, .b = {0.07, 0}}};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Random random(seed);
+    for (const PackedGrain& grain : pack(block, one_lot(), Space::two_dimensional, random))
+      EXPECT_LE(grain.y + diameter / 2, block.height);
+  }
+}
+
+TEST(Packing, DrawnWallsMayTakeUpLittleOfTheLength) {
+  Vessel drawn = vessel(Packing::poured, 40);
+  drawn.length = 2.5, drawn.box = false;
+  drawn.pieces = {
+      {.a = {0.25, 0.06}, .b = {0.25, 0}}, {.a = {0.25, 0}, .b = {0.266, 0}}, {.a = {0.266, 0}, .b = {0.266, 0.06}}};
+  Vessel drum = drawn;
+  drum.height = 0.02;
+  drum.pieces = {{.centre = {0.258, 0.01}, .radius = 0.01, .from = 0, .to = 2 * std::numbers::pi}};
+  drum.fill->count = 5;
+  for (const Vessel& v : {drawn, drum})
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      Random random(seed);
+      const std::vector<PackedGrain> packed = pack(v, one_lot(), Space::two_dimensional, random);
+      EXPECT_EQ(static_cast<int>(packed.size()), v.fill->count);
+      for (const PackedGrain& grain : packed) EXPECT_NEAR(grain.x, 0.258, 0.008);
+    }
+}
+
 TEST(Packing, RandomSeedActsAndRepeats) {
   for (const Packing packing : {Packing::poured, Packing::layers, Packing::hexagonal}) {
     const auto first = [&](std::uint64_t seed) {

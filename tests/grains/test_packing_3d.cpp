@@ -240,6 +240,31 @@ TEST(Packing3d, ClumpsArePouredIntoADrumUpToItsWall) {
   EXPECT_LT(std::ranges::min_element(grains, {}, &PackedGrain::y)->y, 0.25 * lots[0].diameter) << "it lies";
 }
 
+TEST(Packing3d, ADrumIsPouredIntoBesideItsLifters) {
+  Vessel drum = box(Packing::poured, 40);
+  drum.length = drum.height = 0.1, drum.depth = 0.012, drum.box = false;
+  drum.pieces = {{.centre = {0.05, 0.05}, .radius = 0.05, .from = 0, .to = 2 * std::numbers::pi},
+                 {.a = {0, 0.05}, .b = {0.015, 0.05}}};
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const std::vector<PackedGrain> grains = packed(drum, one_lot(), seed);
+    EXPECT_EQ(grains.size(), 40u);
+    for (const PackedGrain& grain : grains)
+      EXPECT_LT(std::hypot(grain.x - 0.05, grain.y - 0.05), 0.05 - 0.99 * diameter / 2);
+  }
+}
+
+TEST(Packing3d, DrawnWallsMayTakeUpLittleOfTheFloor) {
+  Vessel silo = box(Packing::poured, 30);
+  silo.length = 1, silo.depth = 0.8, silo.height = 0.1, silo.box = false;
+  const Eigen::Vector2d about(0.25, 0.6);
+  silo.pieces = {{.a = {0.01, 0}, .b = {0.01, 0.1}, .about = about}, {.a = {0, 0}, .b = {0.01, 0}, .about = about}};
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const std::vector<PackedGrain> grains = packed(silo, one_lot(), seed);
+    EXPECT_EQ(grains.size(), 30u);
+    for (const PackedGrain& grain : grains) EXPECT_LT(std::hypot(grain.x - 0.25, grain.z - 0.6), 0.01);
+  }
+}
+
 /// Ellipsoids of wheat's proportions jam at random at 0.7 (Donev et al., Science 303, 990, 2004), rough seeds looser,
 /// at about 0.6, and a poured bed is a tenth above where it settles.
 TEST(Packing3d, PouredWheatIsNearlyAsDenseAsItLies) {
