@@ -15,6 +15,7 @@
 #include "cli/progress.hpp"
 #include "compute/stop_request.hpp"
 #include "files/atomic_file.hpp"
+#include "files/whole_file.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "picture/chart.hpp"
@@ -63,8 +64,7 @@ fs::path picture_path(const DrawOptions& options) {
   const std::string of_chart = options.chart.empty() ? "" : "-" + options.chart;
   if (options.common.out.empty()) return stem.string() + of_chart + (options.film ? ".gif" : ".png");
   fs::path path = options.common.out;
-  const std::string end = path.extension().string();
-  if (options.film ? end != ".gif" : end != ".png" && end != ".svg")
+  if (options.film ? !has_extension(path, ".gif") : !has_extension(path, ".png") && !has_extension(path, ".svg"))
     throw InputError(fmt::format("--out: \"{}\" does not end in {}", path.string(),
                                  options.film ? ".gif, which --gif makes" : ".png or .svg; a .gif is made with --gif"));
   return path;
@@ -148,7 +148,7 @@ int draw_chart(const DrawOptions& options) {
   const fs::path path = picture_path(options);
   const Chart chart = drawn_chart(folder, options.chart, options.common.jobs);
   const int width = options.picture.width;
-  write_file_atomically(path, path.extension() == ".svg" ? chart_svg(chart, width) : chart_png(chart, width));
+  write_file_atomically(path, has_extension(path, ".svg") ? chart_svg(chart, width) : chart_png(chart, width));
   if (!options.common.quiet) print("{}: {}\n", path.string(), options.chart);
   return exit_done;
 }
@@ -162,9 +162,9 @@ int draw(const DrawOptions& options) {
   if (drawn.frames.empty()) return drawn.exit_code;
   const Picture picture(drawn.scene, drawn.frames, options.picture);
   const Frame& last = drawn.frames.back();
-  write_file_atomically(path, options.film                 ? picture.gif(drawn.frames)
-                              : path.extension() == ".svg" ? picture.svg(last)
-                                                           : picture.png(last));
+  write_file_atomically(path, options.film                  ? picture.gif(drawn.frames)
+                              : has_extension(path, ".svg") ? picture.svg(last)
+                                                            : picture.png(last));
   if (!options.common.quiet)
     print("{}: {}\n", path.string(),
           options.film ? fmt::format("{} frames from {:.3f} to {:.3f} s", drawn.frames.size(),

@@ -22,7 +22,7 @@ struct NewSeederOptions {
 
 int write_seeder(const NewSeederOptions& options) {
   const std::filesystem::path out = options.out.empty() ? "my-" + options.from + ".toml" : options.out;
-  if (out.extension() != ".toml") throw InputError(fmt::format("--out: {} does not end in .toml", out.string()));
+  if (!has_extension(out, ".toml")) throw InputError(fmt::format("--out: {} does not end in .toml", out.string()));
   if (std::filesystem::exists(out))
     throw InputError(fmt::format("{}: is there already; give another --out", out.string()));
   const InputFile shipped = input_file(options.from, FileKind::seeder);

@@ -19,6 +19,7 @@
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "files/atomic_file.hpp"
+#include "files/whole_file.hpp"
 #include "input/input_file.hpp"
 #include "input/measured.hpp"
 #include "input/presets.hpp"
@@ -249,7 +250,7 @@ int run_weighed(PlanOptions options, const PlanSource& source) {
   print_warnings(warnings);
   std::vector<WeighedTray> weighed;
   for (const std::string& text : options.weighed) {
-    if (text.ends_with(".csv"))
+    if (has_extension(text, ".csv"))
       std::ranges::move(weighings_of(options, text, task.seed.mass), std::back_inserter(weighed));
     else
       weighed.push_back(weighing_of(options.layout, text));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -55,6 +56,11 @@ std::optional<std::string> text_of_file_or_none(const fs::path& file, std::uint6
   std::error_code error;
   if (fs::status(file, error).type() == fs::file_type::not_found) return std::nullopt;
   return text_of_wanted_file(file, most);
+}
+
+bool has_extension(const std::filesystem::path& file, std::string_view extension) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::ranges::equal(file.extension().string(), extension, {}, small);
 }
 
 }  // namespace vibrosow

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "files/whole_file.hpp"
 #include "input/read_scene.hpp"
 #include "input/table.hpp"
 #include "input/wording.hpp"
@@ -38,7 +39,7 @@ fs::path shipped_file(const std::string& name, FileKind wanted, const std::share
 }
 
 bool is_bare_name(const std::string& name) {
-  return !name.empty() && name.find('/') == std::string::npos && fs::path(name).extension() != ".toml";
+  return !name.empty() && name.find('/') == std::string::npos && !has_extension(name, ".toml");
 }
 
 }  // namespace

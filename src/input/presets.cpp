@@ -43,7 +43,7 @@ const Renamed* find_renamed(const std::string& name, const std::string& kind) {
 }
 
 fs::path preset_file(const Table& table, const std::string& key, const std::string& name, const std::string& kind) {
-  if (!name.ends_with(".toml")) {
+  if (!has_extension(name, ".toml")) {
     if (const auto meaning = changed_meaning(name, kind)) table.files()->note(table.where(key) + ": " + *meaning);
     try {
       return shipped_preset(name, kind);

@@ -1,5 +1,6 @@
 #include "input/read_crop.hpp"
 
+#include "files/whole_file.hpp"
 #include "input/presets.hpp"
 
 namespace vibrosow {
@@ -41,8 +42,8 @@ Crop read_crop(const std::filesystem::path& file) {
 }
 
 Crop find_crop(const std::string& name_or_path) {
-  return read_crop(name_or_path.ends_with(".toml") ? std::filesystem::path(name_or_path)
-                                                   : shipped_preset(name_or_path, "crops"));
+  return read_crop(has_extension(name_or_path, ".toml") ? std::filesystem::path(name_or_path)
+                                                        : shipped_preset(name_or_path, "crops"));
 }
 
 }  // namespace vibrosow

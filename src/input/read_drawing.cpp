@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "files/whole_file.hpp"
 #include "input/lengths.hpp"
 #include "portable_math/functions.hpp"
 #include "scene/input_error.hpp"
@@ -66,8 +67,9 @@ std::optional<double> read_unit(Table& table) {
 
 Drawing read_drawing(Table& table, Vessel& vessel) {
   const std::filesystem::path path = table.directory("file") / table.required_text("file");
-  const std::string end = path.extension().string();
-  if (end != ".dxf" && end != ".svg") table.fail("file", fmt::format("{} is neither a .dxf nor a .svg", path.string()));
+  const bool is_svg = has_extension(path, ".svg");
+  if (!is_svg && !has_extension(path, ".dxf"))
+    table.fail("file", fmt::format("{} is neither a .dxf nor a .svg", path.string()));
   if (!table.files()->has(path)) table.fail("file", fmt::format("there is no file {}", path.string()));
   const std::optional<double> unit = read_unit(table);
   const double scale = table.number("scale", 1e-6, 1e6).value_or(1);
@@ -79,7 +81,7 @@ Drawing read_drawing(Table& table, Vessel& vessel) {
 
   DrawnPieces drawn;
   double size = 1;
-  if (end == ".svg") {
+  if (is_svg) {
     drawn = read_svg(text, path.string(), {unit, scale, tolerance});
   } else {
     DxfDrawing drawing = read_dxf(text, path.string());

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "agronomy/sowing_rate.hpp"
+#include "files/whole_file.hpp"
 #include "input/toml_value.hpp"
 #include "report/expected_report.hpp"
 #include "report/terminal_text.hpp"
@@ -338,7 +339,7 @@ std::string in_millimetres(double length) {
 
 /// A lot: the crop by name, or written out where its seeds were made heavier or lighter.
 std::string lot_text(const PlannedLot& planned, const std::string& name) {
-  const bool is_file = planned.crop.ends_with(".toml");
+  const bool is_file = has_extension(planned.crop, ".toml");
   const std::string crop = is_file ? std::filesystem::absolute(planned.crop).lexically_normal().string() : planned.crop;
   const SeedLot& lot = planned.sown.lot;
   std::string text = fmt::format("[seeds.{}]\n", name);

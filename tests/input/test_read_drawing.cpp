@@ -413,6 +413,13 @@ TEST_F(Drawings, OfWhichNothingIsSeenAreRefused) {
       "off");
 }
 
+TEST_F(Drawings, AreKnownByTheirEndingInCapitalsToo) {
+  write("U.DXF", dxf("0\nLINE\n10\n0\n20\n0\n11\n3\n21\n4\n"));
+  write("u.Svg", "<svg width='10mm' viewBox='0 0 10 10'><path d='M0 0H3'/></svg>");
+  EXPECT_EQ(tray("[{ file = \"U.DXF\" }]").pieces.size(), 1u);
+  EXPECT_EQ(tray("[{ file = \"u.Svg\" }]").pieces.size(), 1u);
+}
+
 TEST_F(Drawings, BelongToWhatASeederWasReadFrom) {
   write("a.dxf", dxf(two_lines));
   tray("{ file = \"a.dxf\" }");
