@@ -19,6 +19,7 @@
 #include "input/measured.hpp"
 #include "input/read_scene.hpp"
 #include "plan/effects.hpp"
+#include "plan/fill_warnings.hpp"
 #include "plan/model.hpp"
 #include "plan/scene_warnings.hpp"
 #include "plan/softness.hpp"
@@ -212,6 +213,7 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   print_text(mixture_text(scene, drawn));
   if (start) {
     print_warnings(drawn_warnings(scene, drawn));
+    print_warnings(fill_warnings(scene, start->grains));
     const CostBreakdown cost = break_down_cost(model, start->grains);
     print_effects(model, cost);
     print_step(plan, cost.whole);

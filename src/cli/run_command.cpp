@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "agronomy/row_metrics.hpp"
 #include "cli/commands.hpp"
@@ -24,6 +25,7 @@
 #include "input/read_scene.hpp"
 #include "outflow/outflow.hpp"
 #include "plan/effects.hpp"
+#include "plan/fill_warnings.hpp"
 #include "plan/model.hpp"
 #include "plan/scene_warnings.hpp"
 #include "recording/recording.hpp"
@@ -42,6 +44,7 @@
 #include "scene/scene_json.hpp"
 #include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
+#include "simulation/state.hpp"
 #include "study/expected_rate.hpp"
 
 namespace vibrosow {
@@ -198,6 +201,19 @@ void tell_of_replaced(const OutputFolder& folder, const Scene& scene) {
                          folder.path().string()));
 }
 
+/// Of a fill by its height, which is put in here for that. A run that is resumed tells of it as well.
+void warn_of_fill(const Model& model, SimulationOptions& options, std::vector<std::string>& warnings) {
+  if (!has_fill_to_height(model.scene)) return;
+  try {
+    SimulationState start = starting_state(model, options.random_seed, StopRequest(options.interrupt));
+    const std::vector<std::string> of_fill = fill_warnings(model.scene, start.grains);
+    print_warnings(of_fill);
+    std::ranges::copy(of_fill, std::back_inserter(warnings));
+    if (!options.from) options.from = std::move(start);
+  } catch (const Interrupted&) {  // as the run will be
+  }
+}
+
 int run_scene(const RunOptions& options) {
   const InputFile file = input_file(options.file, FileKind::seeder);
   const auto [read, drill, drawings] = read_seeder(file.path, options.overrides(), file.files);
@@ -226,6 +242,7 @@ int run_scene(const RunOptions& options) {
     simulation.on_checkpoint = [&](const SimulationState& state) { checkpoint.write(model, state); };
   }
   if (options.resume) simulation.from = checkpoint.read(model, options.random_seed);
+  warn_of_fill(model, simulation, warnings);
   if (recorded.wanted()) simulation.on_record = [&](Simulation& now) { recorded.note(now); };
   Recording recording(model);
   const bool records = options.html && !simulation.from;  // of the rest alone it would be taken for the run's

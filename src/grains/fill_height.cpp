@@ -38,6 +38,17 @@ class RoomBelow {
     return room_[whole] + (layer - static_cast<double>(whole)) * (room_[whole + 1] - room_[whole]);
   }
 
+  /// m, of the room below a height, at the mean.
+  double mean_height(double height) const {
+    const double layer = height_ / layers();
+    double moment = 0;
+    for (double from = 0; from < height; from += layer) {
+      const double to = std::min(height, from + layer);
+      moment += (below(to) - below(from)) * 0.5 * (from + to);
+    }
+    return moment / below(height);
+  }
+
   double height_of(double room) const {
     const auto above = std::ranges::find_if(room_, [room](double one) { return one >= room; });
     if (above == room_.begin()) return 0;
@@ -100,6 +111,10 @@ double height_of_fill(const Vessel& vessel, const std::vector<SeedLot>& lots, Sp
     return ++places < count;
   });
   return std::min(vessel.height, highest + 0.5 * SeatWidth(vessel, lots, space).clear);
+}
+
+double mean_height_of_poured(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space) {
+  return RoomBelow(vessel, lots, space).mean_height(height_of_fill(vessel, lots, space));
 }
 
 }  // namespace vibrosow

@@ -16,4 +16,7 @@ double seeds_to_height(const Vessel& vessel, const std::vector<SeedLot>& lots, S
 /// How high (m) a vessel's fill lies by that rule; not above the walls' height, where it may not fit.
 double height_of_fill(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space);
 
+/// How high (m) the seeds of a poured fill that lay level up to that height would lie, on the mean.
+double mean_height_of_poured(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space);
+
 }  // namespace vibrosow

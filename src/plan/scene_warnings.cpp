@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "grains/fill_height.hpp"
+#include "plan/fill_warnings.hpp"
 #include "plan/geometry_warnings.hpp"
 #include "plan/steadiness_warnings.hpp"
 #include "portable_math/functions.hpp"
@@ -241,7 +242,7 @@ void warn_of_rows(const Scene& scene, const Vessel& vessel, Warnings& warnings) 
   constexpr double much_of_it = 0.8;
   if (!vessel.fill || vessel.fill->packing == Packing::poured) return;
   const std::string key = vessel.name + ".fill.height";
-  if (!vessel.fill->where.or_key("").ends_with(key)) return;
+  if (!is_filled_to_height(vessel)) return;
   Vessel poured = vessel;
   poured.fill->packing = Packing::poured;
   const double laid = height_of_fill(vessel, scene.lots, scene.space),
