@@ -7,6 +7,7 @@
 #include "report/expected_report.hpp"
 #include "report/page.hpp"
 #include "report/run_page.hpp"
+#include "report/run_report.hpp"
 
 namespace vibrosow {
 
