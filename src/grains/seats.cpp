@@ -16,10 +16,7 @@ namespace {
 class Room {
  public:
   Room(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space)
-      : vessel_(vessel),
-        obstacles_(vessel, space),
-        room_(vessel, space, most_half_width(lots)),
-        drum_(drum_of(vessel)) {}
+      : obstacles_(vessel, space), room_(vessel, space, most_half_width(lots)), drum_(drum_of(vessel)) {}
 
   /// Whether a ball of diameter `clear` (m) has room at `seat`.
   bool holds(const Eigen::Vector3d& seat, double clear) const {
@@ -28,7 +25,6 @@ class Room {
   }
 
  private:
-  const Vessel& vessel_;
   Obstacles obstacles_;
   FreeRoom room_;
   std::optional<DrumCircle> drum_;
