@@ -30,6 +30,7 @@ Run run_of(const Model& model, const SimulationOptions& options, double scatter)
   Run run;
   run.random_seed = options.random_seed;
   run.dt = 1e-3;
+  run.steps = std::llround(scene.run.duration / run.dt);
   run.end_time = scene.run.duration;
   run.grain_steps = 4000;
   Random random(options.random_seed * 1000 + static_cast<std::uint64_t>(std::llround(mean)));
