@@ -232,7 +232,7 @@ HoleClass hole_class(double width_over_d) {
 }
 
 double softness_error(double aspect) {
-  return accuracy_levels.front().error(aspect > 1);  // softer than the table's seeds
+  return accuracy_levels.front().error(Space::three_dimensional, aspect > 1);  // softer than the table's seeds
 }
 
 double tolerance_deviation(const BuildSlopes& slopes, const BuildTolerance& tolerance) {

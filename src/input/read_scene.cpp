@@ -74,7 +74,7 @@ std::vector<SeedLot> read_lots(Table seeds, Space space) {
 }
 
 /// A level by its name, or the cheapest whose error with such seeds is known to be within a fraction.
-AccuracyLevel read_accuracy(Table& root, const std::vector<SeedLot>& lots) {
+AccuracyLevel read_accuracy(Table& root, const std::vector<SeedLot>& lots, Space space) {
   const std::optional<std::string> text = root.text("accuracy");
   if (!text) return AccuracyLevel::as_written;
   for (const AccuracyLevelValues& level : accuracy_levels)
@@ -85,7 +85,7 @@ AccuracyLevel read_accuracy(Table& root, const std::vector<SeedLot>& lots) {
         fmt::format("\"{}\" is neither \"draft\", \"design\" nor \"reference\", nor an error such as \"3 %\"", *text));
   }
   const double wanted = *root.quantity("accuracy", Dimension::fraction, 0, 1);
-  const auto error = [&](const AccuracyLevelValues& level) { return level.error(has_clumps(lots)); };
+  const auto error = [&](const AccuracyLevelValues& level) { return level.error(space, has_clumps(lots)); };
   for (const AccuracyLevelValues& level : accuracy_levels)
     if (error(level) <= wanted * (1 + 1e-9)) return level.level;
   root.fail(
@@ -267,7 +267,7 @@ Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& 
   if (!gives_seeds(scene.tray) && !(scene.hopper && gives_seeds(*scene.hopper))) {
     tray.fail("fill", "is missing, no hopper has one, and no rain falls: there is nothing to sow");
   }
-  const AccuracyLevel accuracy = read_accuracy(root, scene.lots);
+  const AccuracyLevel accuracy = read_accuracy(root, scene.lots, scene.space);
   refuse_softness_beside(accuracy, contact, seeds);
   if (auto numerics = root.table("numerics")) scene.numerics = read_numerics(*numerics, scene.contact.law, accuracy);
   scene.numerics.accuracy = accuracy;

@@ -290,7 +290,7 @@ void warn_of_bulk_density(const Scene& scene, Warnings& warnings) {
 /// Two keys may be enough for a [contact] that stands alone, and what its writer left to a crop's model is lost.
 void warn_of_models_not_used(const Scene& scene, Warnings& warnings) {
   const Contact& contact = scene.contact;
-  if (contact.model.is_known() || contact.model.of_crops || contact.law == Law::hertz_viscous) return;
+  if (contact.model.is_known() || contact.model.of_crops || contact.damping_rate > 0) return;
   if (contact.seed.restitution < 1) return;
   for (const SeedLot& lot : scene.lots)
     if (lot.contact.is_known())

@@ -120,15 +120,17 @@ NumericsError numerics_error(const Scene& scene) {
   constexpr double rounding = 1e-9;
   const Scene written = resolve_accuracy_level(scene);
   const double shell = shell_compression_of(written, traits_of(written.contact.law)), steps = steps_a_contact(written);
-  const bool long_grains = has_clumps(scene.lots);
+  const auto error_of = [&, long_grains = has_clumps(scene.lots)](const AccuracyLevelValues& level) {
+    return level.error(scene.space, long_grains);
+  };
   const auto times_beyond = [&](const AccuracyLevelValues& level) {
     const double times = std::max(shell / level.shell_compression, level.steps_per_contact / steps);
     return times <= 1 + rounding ? 1 : times;
   };
   const AccuracyLevelValues& softest = accuracy_levels.front();
-  NumericsError error{softest.error(long_grains) * times_beyond(softest), times_beyond(softest)};
+  NumericsError error{error_of(softest) * times_beyond(softest), times_beyond(softest)};
   for (const AccuracyLevelValues& level : accuracy_levels)
-    if (times_beyond(level) == 1) error.half_width = std::min(error.half_width, level.error(long_grains));
+    if (times_beyond(level) == 1) error.half_width = std::min(error.half_width, error_of(level));
   return error;
 }
 

@@ -147,7 +147,7 @@ TEST(SowingPlan, TheTableIsSureToChanceAndInterpolationAndSoftness) {
   const PlannedLayout& best = plan.layouts.front();
   EXPECT_NEAR(
       plan.unknown_to_table(best),
-      std::hypot(best.estimate.chance, table().interpolation_error(1, best.width_over_d, best.peak_speed)) + 0.062,
+      std::hypot(best.estimate.chance, table().interpolation_error(1, best.width_over_d, best.peak_speed)) + 0.055,
       1e-12);
   EXPECT_GT(plan.unknown_to_table(best), plan.softness);
 }
@@ -157,7 +157,7 @@ TEST(SowingPlan, ARateErrsByFourParts) {
   const PlannedLayout& best = plan.layouts.front();
   constexpr double normal_95 = 1.959964;
   EXPECT_NEAR(best.error.chance * normal_95, best.estimate.chance, 1e-12);
-  EXPECT_NEAR(best.error.numerics * normal_95, std::hypot(best.interpolation, 0.062), 1e-12);
+  EXPECT_NEAR(best.error.numerics * normal_95, std::hypot(best.interpolation, 0.055), 1e-12);
   EXPECT_EQ(best.error.model.scale, other_materials.scale);
   // By the made-up law the width counts as (width - 1)^(5/2), the speed as exp(-ln(speed / 1.4)^2 / 2).
   const double by_width = 2.5 * best.width_over_d / (best.width_over_d - 1) * 0.1e-3 / best.width;
@@ -166,7 +166,7 @@ TEST(SowingPlan, ARateErrsByFourParts) {
 }
 
 TEST(SowingPlan, LongSeedsHaveTheSoftnessErrorOfGrains) {
-  EXPECT_DOUBLE_EQ(softness_error(1), 0.062);
+  EXPECT_DOUBLE_EQ(softness_error(1), 0.055);
   EXPECT_DOUBLE_EQ(softness_error(2.2), 0.073);
 }
 

@@ -181,7 +181,7 @@ TEST(ReadScene, AccuracyIsALevelAndContradictsAStep) {
   EXPECT_EQ(read(small_example).numerics.accuracy, AccuracyLevel::as_written);
   EXPECT_EQ(read(small_example, {"accuracy=draft"}).numerics.accuracy, AccuracyLevel::draft);
   EXPECT_EQ(read(small_example, {"accuracy=100 %"}).numerics.accuracy, AccuracyLevel::draft);
-  EXPECT_EQ(read(small_example, {"accuracy=5 %"}).numerics.accuracy, AccuracyLevel::design);
+  EXPECT_EQ(read(small_example, {"accuracy=6 %"}).numerics.accuracy, AccuracyLevel::design);
   EXPECT_EQ(read(small_example, {"accuracy=3 %"}).numerics.accuracy, AccuracyLevel::reference);
   for (const char* step : {"numerics.dt=1e-5 s", "numerics.steps_per_contact=30"})
     EXPECT_THROW(read(small_example, {"accuracy=design", step}), InputError);

@@ -57,8 +57,11 @@ TEST(NumericsError, OfALevelIsWhatWasMeasuredOfIt) {
   for (const AccuracyLevelValues& level : accuracy_levels) {
     Scene scene = tray(Law::elastic_shell);
     scene.numerics.accuracy = level.level;
-    EXPECT_DOUBLE_EQ(numerics_error(scene).half_width, level.error_percent / 100) << level.name;
+    EXPECT_DOUBLE_EQ(numerics_error(scene).half_width, level.error_2d_percent / 100) << level.name;
     EXPECT_EQ(numerics_error(scene).times_beyond, 1);
+    scene.space = Space::three_dimensional, scene.tray.depth = 0.06;
+    EXPECT_DOUBLE_EQ(numerics_error(scene).half_width, level.error_3d_percent / 100) << level.name;
+    scene.space = Space::two_dimensional;
     scene.lots[0].shape = Shape::clump;
     scene.lots[0].discs = {{-1e-3, 0, 1e-3}, {1e-3, 0, 1e-3}};
     EXPECT_DOUBLE_EQ(numerics_error(scene).half_width, level.grains_error_percent / 100) << level.name;
@@ -72,23 +75,23 @@ TEST(NumericsError, WithoutALevelIsThatOfTheMostAccurateThatIsNoStiffer) {
     scene.numerics.steps_per_contact = steps;
     return numerics_error(scene);
   };
-  EXPECT_DOUBLE_EQ(error(1e-4, 12).half_width, 0.062);
-  EXPECT_DOUBLE_EQ(error(2e-5, 12).half_width, 0.039);
-  EXPECT_DOUBLE_EQ(error(1e-6, 12).half_width, 0.039) << "the reference takes more steps";
-  EXPECT_DOUBLE_EQ(error(1e-6, 30).half_width, 0.018);
-  EXPECT_NEAR(error(6e-4, 12).half_width, 2 * 0.062, 1e-12);
+  EXPECT_DOUBLE_EQ(error(1e-4, 12).half_width, 0.114);
+  EXPECT_DOUBLE_EQ(error(2e-5, 12).half_width, 0.059);
+  EXPECT_DOUBLE_EQ(error(1e-6, 12).half_width, 0.059) << "the reference takes more steps";
+  EXPECT_DOUBLE_EQ(error(1e-6, 30).half_width, 0.026);
+  EXPECT_NEAR(error(6e-4, 12).half_width, 2 * 0.114, 1e-12);
   EXPECT_NEAR(error(6e-4, 12).times_beyond, 2, 1e-12);
   EXPECT_NEAR(error(6e-4, 4).times_beyond, 3, 1e-12);
 }
 
 TEST(NumericsError, OfHertzIsThatOfAShellWhoseContactsLastAsLong) {
   Scene hertz = at(tray(Law::hertz), AccuracyLevel::design);
-  EXPECT_DOUBLE_EQ(numerics_error(hertz).half_width, 0.039);
+  EXPECT_DOUBLE_EQ(numerics_error(hertz).half_width, 0.059);
   hertz.contact.youngs_modulus /=
       100;  // contacts last 100^(2/5) times as long, and as a shell are so much squared softer
   const double times = std::pow(100, 0.8) * 3e-5 / 3e-4;
   EXPECT_NEAR(numerics_error(hertz).times_beyond / times, 1, 1e-9);
-  EXPECT_NEAR(numerics_error(hertz).half_width / (0.062 * times), 1, 1e-9);
+  EXPECT_NEAR(numerics_error(hertz).half_width / (0.114 * times), 1, 1e-9);
 }
 
 TEST(NumericsError, AStepThatIsWrittenCountsByTheStepsOfAContact) {

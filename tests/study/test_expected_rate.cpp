@@ -28,7 +28,7 @@ RateKnowledge knowledge(const ModelError& model = {0.2, 5, 1}) {
 TEST(SceneError, HasThreePartsOfATrayThatTheTableKnows) {
   const Scene scene = table_tray_scene();  // as soft as 1e-4, between draft and design
   const SceneError found = *scene_error(scene, knowledge());
-  EXPECT_NEAR(half_width_of_normal(found.error.numerics), 0.062, 1e-12);
+  EXPECT_NEAR(half_width_of_normal(found.error.numerics), 0.055, 1e-12);
   EXPECT_DOUBLE_EQ(found.error.tolerance, *tray_tolerance(scene, knowledge().table).deviation);
   EXPECT_EQ(found.error.model.materials, 5);
   EXPECT_EQ(found.error.chance, 0);
@@ -58,13 +58,13 @@ TEST(SceneError, DoubtsWhatLiesOutside) {
   scene.contact.shell_compression = 6e-4;
   const SceneError soft = *scene_error(scene, knowledge());
   EXPECT_THAT(soft.doubts, ElementsAre(Field(&Doubt::kind, DoubtKind::beyond_the_levels)));
-  EXPECT_NEAR(half_width_of_normal(soft.error.numerics), 2 * 0.062, 1e-12);
+  EXPECT_NEAR(half_width_of_normal(soft.error.numerics), 2 * 0.055, 1e-12);
 }
 
 TEST(ExpectedRate, OfNormalPartsIsALognormal) {
   const SceneError error = *scene_error(table_tray_scene(), knowledge({}));
   const ExpectedRate expected = *expected_rate(6e-3, 0.05, error);
-  const double chance = std::asinh(0.05), numerics = std::asinh(0.062), tolerance = 1.959964 * error.error.tolerance;
+  const double chance = std::asinh(0.05), numerics = std::asinh(0.055), tolerance = 1.959964 * error.error.tolerance;
   EXPECT_NEAR(std::log(expected.range.high), std::sqrt(chance * chance + numerics * numerics + tolerance * tolerance),
               1e-6);
   EXPECT_NEAR(expected.range.low * expected.range.high, 1, 1e-9);
