@@ -6,7 +6,6 @@
 #include "cli/console.hpp"
 #include "cli/make_replays.hpp"
 #include "cli/pareto_study.hpp"
-#include "cli/report_study.hpp"
 #include "cli/reused_cases.hpp"
 #include "cli/selection_study.hpp"
 #include "report/page.hpp"
@@ -28,7 +27,7 @@ int answer(AdaptiveStudy& asked, const CommonOptions& options, const BatchFlags&
   const OutputFolder folder = asked.folder(options);
   StudyRuns runs(cases_of(folder.path()), cases_to_reuse(reuse));
   RoundExecutor rounds(runs, batch, options.jobs, options.quiet);
-  begin_study(folder, asked.plan(), options.quiet);
+  freeze_plan(folder.path(), asked.plan());
   const bool with_replays = asked.run_to_decision(rounds) && options.replays > 0;
   freeze_plan(folder.path(), asked.plan());
   const bool with_page = !page_template.empty() && !with_replays;

@@ -16,8 +16,9 @@ namespace vibrosow {
 /// Says which layout the guard stopped, and why; an exit code.
 int stopped_by_guard(int layout, const std::string& reason);
 
-/// Makes a plan the current one of a folder, and gives its name. Reports there of another study, or of none that
-/// is kept, are removed before, with a note unless `quiet`: they would be taken for its own.
+/// Makes a plan the current one of a folder whose reports come later, by another command, and gives its name. Reports
+/// there of another study, or of none that is kept, are removed before, with a note unless `quiet`: they would be taken
+/// for its own.
 std::string begin_study(const OutputFolder& folder, const StudyPlan& plan, bool quiet);
 
 /// How many of the planned runs a study's folder does not keep.

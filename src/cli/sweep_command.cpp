@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,10 +27,10 @@ struct SweepCommandOptions {
 };
 
 /// Round by round where replicates are by need; `planned` is then the last round.
-BatchResult make_all_runs(PlannedStudy& planned, StudyRuns& runs, const OutputFolder& folder,
+BatchResult make_all_runs(PlannedStudy& planned, StudyRuns& runs, const std::filesystem::path& folder,
                           const SweepCommandOptions& command) {
   const CommonOptions& options = command.common;
-  begin_study(folder, planned.plan, options.quiet);
+  freeze_plan(folder, planned.plan);
   BatchResult made = make_runs(runs, wanted_runs(planned), command.batch, options.jobs, options.quiet);
   while (made.batch.interrupted == 0) {
     std::optional<PlannedStudy> next = next_round(planned, runs.kept(), options.jobs);
@@ -38,7 +39,7 @@ BatchResult make_all_runs(PlannedStudy& planned, StudyRuns& runs, const OutputFo
     if (!options.quiet && !command.batch.json_progress)
       complain(fmt::format("{} run{} more, for the interval that is wanted", more, more == 1 ? "" : "s"));
     planned = std::move(*next);
-    freeze_plan(folder.path(), planned.plan);
+    freeze_plan(folder, planned.plan);
     made.add(make_runs(runs, wanted_runs(planned), command.batch, options.jobs, options.quiet));
   }
   return made;
@@ -53,7 +54,7 @@ int run_sweep(const SweepCommandOptions& command) {
   const std::string page_template = options.page_template();
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
   StudyRuns runs(cases_of(folder.path()), cases_to_reuse(command.reuse));
-  const BatchResult made = make_all_runs(planned, runs, folder, command);
+  const BatchResult made = make_all_runs(planned, runs, folder.path(), command);
   const int exit_code = report_study(planned, runs, folder, made.timing, options, page_template);
   if (!options.quiet && made.batch.there > 0) print("{} of the runs were kept from before\n", made.batch.there);
   if (!options.quiet) print("reports: {}\n", folder.path().string());
