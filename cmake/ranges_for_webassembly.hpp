@@ -5,8 +5,9 @@
 #include <range/v3/algorithm.hpp>
 
 namespace std::ranges {
-using ::ranges::adjacent_find, ::ranges::all_of, ::ranges::any_of, ::ranges::copy_if, ::ranges::count,
-    ::ranges::count_if, ::ranges::find, ::ranges::find_if, ::ranges::for_each, ::ranges::is_sorted,
+using ::ranges::adjacent_find, ::ranges::all_of, ::ranges::any_of, ::ranges::copy, ::ranges::copy_if, ::ranges::count,
+    ::ranges::count_if, ::ranges::equal, ::ranges::find, ::ranges::find_if, ::ranges::for_each, ::ranges::is_sorted,
     ::ranges::lower_bound, ::ranges::max, ::ranges::max_element, ::ranges::min, ::ranges::min_element, ::ranges::minmax,
-    ::ranges::none_of, ::ranges::sort, ::ranges::stable_sort, ::ranges::upper_bound;
+    ::ranges::minmax_element, ::ranges::move, ::ranges::none_of, ::ranges::sort, ::ranges::stable_sort,
+    ::ranges::upper_bound;
 }  // namespace std::ranges

@@ -10,6 +10,7 @@
 #include "input/presets.hpp"
 #include "portable_math/functions.hpp"
 #include "scene/clump_shape.hpp"
+#include "scene/input_error.hpp"
 #include "scene/list_limits.hpp"
 #include "scene/make_clump.hpp"
 #include "scene/seed_lot.hpp"

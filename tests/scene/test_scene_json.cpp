@@ -343,7 +343,7 @@ Contact any_contact(int lots) {
   rolling = any_of_first<Rolling>(3);
   rotation = any_choice();
   arm = any_of_first<FrictionArm>(2);
-  model = {any_text(), any_text()};
+  model = {{any_text(), any_text()}};
   return contact;
 }
 
