@@ -195,7 +195,6 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   const Model model = prepare(read);
   const Scene& scene = model.scene;
   print_warnings(scene_warnings(scene));
-  print_warnings(drawing_warnings(scene, drawings));
   tell_of_files(file);
   const StepPlan& plan = model.step;
   print_text(wrapped(scene.title));

@@ -218,7 +218,6 @@ int run_scene(const RunOptions& options) {
   const InputFile file = input_file(options.file, FileKind::seeder);
   const auto [read, drill, drawings] = read_seeder(file.path, options.overrides(), file.files);
   std::vector<std::string> warnings = scene_warnings(read);
-  std::ranges::move(drawing_warnings(read, drawings), std::back_inserter(warnings));
   if (!options.quiet)
     for (const Drawing& drawing : drawings) print_text(wrapped(drawing_text(drawing, read)));
   print_warnings(warnings);

@@ -278,6 +278,7 @@ Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& 
   if (auto drill = root.table("drill")) seeder.drill = read_drill(*drill, scene.tray.holes.size());
   root.reject_unknown_keys();
   refuse_missing_lot(root, scene);
+  scene.doubts_of_reader.sentences = drawing_warnings(scene, seeder.drawings);
   return seeder;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <string_view>
 
@@ -348,6 +349,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_slots_in_3d(scene.tray, warnings);
   for (const std::string& warning : geometry_warnings(scene)) warnings.push_back(warning);
   for (const std::string& warning : steadiness_warnings(scene)) warnings.push_back(warning);
+  std::ranges::copy(scene.doubts_of_reader.sentences, std::back_inserter(warnings));
   if (!scene.hopper) return warnings;
   if (scene.space == Space::two_dimensional) warn_of_round_holes(*scene.hopper, warnings);
   warn_of_slots_in_3d(*scene.hopper, warnings);

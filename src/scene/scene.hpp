@@ -355,6 +355,13 @@ struct Record {
 enum class Space { two_dimensional, three_dimensional };
 
 /// Everything a run needs, in SI; one value, read from a seeder file and validated.
+/// What the reader of a scene's files found that can hardly be meant, one sentence each, as of its drawings, which the
+/// scene does not know. Says nothing about the scene, so any two are equal.
+struct DoubtsOfReader {
+  std::vector<std::string> sentences{};
+  bool operator==(const DoubtsOfReader&) const { return true; }
+};
+
 struct Scene {
   std::string title;
   Space space = Space::two_dimensional;
@@ -366,6 +373,7 @@ struct Scene {
   GuardLimits guard;
   RunPlan run;
   std::optional<Record> record{};
+  DoubtsOfReader doubts_of_reader{};
   bool operator==(const Scene&) const = default;
 };
 

@@ -379,7 +379,7 @@ TEST_F(Drawings, ThatLieBesideTheirVesselAreWarnedOf) {
   const auto warnings = [&](const std::string& at) {
     tray("[{ file = \"a.dxf\", at = " + at + " }]");
     const Seeder seeder = read_seeder(folder / "seeder.toml");
-    return drawing_warnings(seeder.scene, seeder.drawings);
+    return seeder.scene.doubts_of_reader.sentences;
   };
   EXPECT_EQ(warnings("[\"30 cm\", \"2 cm\"]"),
             (std::vector<std::string>{

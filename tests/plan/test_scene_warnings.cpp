@@ -191,6 +191,12 @@ TEST(SceneWarnings, DensityThatNoSeedHas) {
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
 }
 
+TEST(SceneWarnings, WhatTheReaderFoundIsOneOfThem) {
+  Scene scene = sound();
+  scene.doubts_of_reader.sentences = {"tray.pieces: a.dxf draws no more than 4 mm"};
+  EXPECT_EQ(scene_warnings(scene), scene.doubts_of_reader.sentences);
+}
+
 TEST(SceneWarnings, DensityThatTheCropsSeedsHaveNot) {
   Scene scene = sound();
   scene.lots[0].crop = {{"wheat", "crops/wheat.toml"}, 1200.0};

@@ -464,7 +464,8 @@ Vessel any_vessel() {
 
 Scene any_scene() {
   Scene scene;
-  auto& [title, space, lots, contact, tray, hopper, numerics, guard, run, record] = scene;
+  auto& [title, space, lots, contact, tray, hopper, numerics, guard, run, record, of_reader] = scene;
+  of_reader.sentences = any_list(any_text, 0);
   space = any_of_first<Space>(2);
   title = any_text();
   lots = any_list(any_lot, 1);
