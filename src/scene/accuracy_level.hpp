@@ -28,7 +28,7 @@ struct AccuracyLevelValues {
 /// From the cheapest to the most accurate.
 inline constexpr std::array<AccuracyLevelValues, 3> accuracy_levels{
     {{AccuracyLevel::draft, "draft", 3e-4, 12, 11.4, 5.5, 7.3},
-     {AccuracyLevel::design, "design", 3e-5, 12, 5.9, 5.2, 6.6},
+     {AccuracyLevel::design, "design", 3e-5, 12, 5.8, 5.2, 6.6},
      {AccuracyLevel::reference, "reference", 3e-6, 24, 2.6, 2.6, 6.6}}};
 
 /// As JSON calls them, in the order of the enumeration.
