@@ -86,7 +86,7 @@ constexpr double rim = 0.02;  // of a hole's width, or its length across: what r
 using Copies = std::vector<WallPiece>;
 
 Covered covered_by_drawn_out(const Copies& copies, const Hole& hole, Near near) {
-  const bool along = copies.front().drawn_out == DrawnOut::along;
+  const bool along = !plane_alone && copies.front().drawn_out == DrawnOut::along;
   const double middle = along ? hole.across : hole.centre;
   const double width = along && hole.shape == HoleShape::slot ? hole.across_length : hole.width;
   const double left = middle - width / 2, right = middle + width / 2, slack = rim * width;
@@ -194,7 +194,7 @@ Covered covered_by_turned(const Copies& copies, const Hole& hole, Near near) {
 
 /// `by`: m, along, up and across.
 WallPiece shifted(WallPiece piece, const Eigen::Vector3d& by) {
-  if (!piece.about) {
+  if (plane_alone || !piece.about) {
     const Eigen::Vector2d shift(piece.drawn_out == DrawnOut::along ? by.z() : by.x(), by.y());
     piece.a += shift, piece.b += shift, piece.centre += shift;
     return piece;
@@ -209,7 +209,8 @@ WallPiece shifted(WallPiece piece, const Eigen::Vector3d& by) {
 /// A vessel's piece, and where it is periodic those one period to either side.
 Copies with_images(const Vessel& vessel, const WallPiece& piece) {
   Copies copies;
-  const int most_x = vessel.sides == Sides::periodic ? 1 : 0, most_z = vessel.front_and_back == Sides::periodic ? 1 : 0;
+  const int most_x = vessel.sides == Sides::periodic ? 1 : 0;
+  const int most_z = !plane_alone && vessel.front_and_back == Sides::periodic ? 1 : 0;
   for (int i = -most_x; i <= most_x; ++i)
     for (int k = -most_z; k <= most_z; ++k)
       copies.push_back(shifted(piece, {i * vessel.length, 0, k * vessel.depth.value_or(0)}));
@@ -288,7 +289,7 @@ class CoveredHoles {
       const std::string holes = beside([&](const Hole& hole) {
         Copies near_hole;
         for (std::size_t i = 0; i < stand.size(); ++i)
-          if (!is_3d_ || reaches_to(others[i].pieces[k], hole, stand[i]))
+          if (plane_alone || !is_3d_ || reaches_to(others[i].pieces[k], hole, stand[i]))
             std::ranges::copy(of_each[i], std::back_inserter(near_hole));
         return near_hole;
       });
@@ -438,7 +439,7 @@ void warn_of_pieces_beyond_periods(const Vessel& vessel, Warnings& warnings) {
   for (std::size_t k = 0; k < vessel.pieces.size(); ++k) {
     const WallPiece& piece = vessel.pieces[k];
     const Extent all = extent({piece});
-    const bool is_along = piece.drawn_out == DrawnOut::along;
+    const bool is_along = !plane_alone && piece.drawn_out == DrawnOut::along;
     const auto warn = [&](Sides sides, double low, double high, double period, const char* direction) {
       const bool beyond = sides == Sides::periodic && (low < -period - rounding || high > 2 * period + rounding);
       if (beyond)
@@ -453,7 +454,7 @@ void warn_of_pieces_beyond_periods(const Vessel& vessel, Warnings& warnings) {
     const double radius = std::max(piece.a.x(), piece.b.x()), depth = vessel.depth.value_or(0);
     if (!is_along && warn(vessel.sides, all.low.x(), all.high.x(), vessel.length, "along")) return;
     if (is_along && warn(vessel.front_and_back, all.low.x(), all.high.x(), depth, "across")) return;
-    if (piece.about &&
+    if (!plane_alone && piece.about &&
         warn(vessel.front_and_back, piece.about->y() - radius, piece.about->y() + radius, depth, "across"))
       return;  // one of a drawing says enough
   }
