@@ -292,10 +292,11 @@ bool has_own_density(const Table& seeds) {
   return std::ranges::any_of(mass_keys, is_here) || std::ranges::any_of(size_keys, is_here);
 }
 
-/// kg/m3; none where the crop alone tells no seed.
+/// kg/m3; none where the crop alone tells no seed, nor of one that names a crop, which may be itself.
 std::optional<double> density_of_crop(const PresetFile& crop, const Table& seeds, Space space) {
   try {
     Table alone = read_preset(crop, seeds, "crop");
+    if (alone.has("crop")) return std::nullopt;
     return seed_density(read_lot(alone, crop.name, space));
   } catch (const InputError&) {
     return std::nullopt;

@@ -62,6 +62,13 @@ TEST(ReadLot, KnowsTheDensityOfItsCropWhereItHasAnother) {
   EXPECT_EQ(lot_of("crop = 'pea'\ndiameter = '5 mm'").crop.seed_density, seed_density(crop));
 }
 
+TEST(ReadLot, ACropThatNamesItselfEnds) {
+  const TemporaryFolder folder;
+  folder.write("self.toml", "crop = 'self.toml'\ndiameter = '4 mm'\nmass = '40 mg'");
+  Table root(Document::read(folder.write("seeder.toml", "crop = 'self.toml'\nmass = '60 mg'")));
+  EXPECT_FALSE(read_lot(root, "a", Space::two_dimensional).crop.seed_density);
+}
+
 TEST(ReadLot, DropsHoldingCircleIsAboutItsCentreOfMass) {
   const SeedLot lot = lot_of("shape = 'drop'\nlength = '12 mm'\nwidth = '6 mm'\nmass = '80 mg'");
   EXPECT_GT(lot.diameter, 12e-3);
