@@ -35,7 +35,7 @@ double pair_energy_3d(const GrainSurfaces& grains, const Motion3d& at, const Pai
       [&](std::size_t i, std::size_t j) {
         const GrainVector &from = at.row_place[i], &to = at.place[j];
         const Vector3 apart{to.x - from.x, to.y - from.y, to.z - from.z};
-        return PairReach{properties.reach(i, j), dot(apart, apart)};
+        return PairReach{properties.reach()(i, j), dot(apart, apart)};
       },
       [&](std::size_t k, std::size_t i, std::size_t j, double overlap) {
         energy += contact_energy_3d<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),

@@ -36,14 +36,14 @@ inline void fill_up(Block3d& block) {
 }
 
 /// Fetches what the contacts of a block need to know of how their balls move.
-template <class Effects>
-void fetch_motion(const BallMotion* motion, Block3d& block) {
+template <bool moves, bool turns>
+[[gnu::noinline]] void fetch_motion(const BallMotion* motion, Block3d& block) {
   const int count = block.whole_vectors();
-  if constexpr (Effects::damping || Effects::friction)
+  if constexpr (moves)
     fetch(count, block.velocity, [&](int k, Four& row) {
       row = as_four(motion[block.grain[k]].velocity) - as_four(motion[block.partner[k]].velocity);
     });
-  if constexpr (Effects::rotation) {
+  if constexpr (turns) {
     fetch(count, block.spin, [&](int k, Four& row) { row = as_four(motion[block.grain[k]].spin); });
     fetch(count, block.partner_spin, [&](int k, Four& row) { row = as_four(motion[block.partner[k]].spin); });
   }
@@ -60,9 +60,9 @@ inline void update_touch_flags_3d(PairRange range, const unsigned char* touches,
   }
 }
 
-template <class Law, class Effects>
-void find_touching(const PairProperties<Law, Effects>& properties, const Motion3d& at, const PairList& list,
-                   PairRange range, bool leaves_trace, ContactHistories& histories, Block3d& block) {
+template <bool polydisperse>
+[[gnu::noinline]] void find_touching(const Reach<polydisperse> reach_of, const Motion3d& at, const PairList& list,
+                                     PairRange range, ContactHistories* histories, Block3d& block) {
   const int *grain = list.grain.data() + range.from, *partner = list.partner.data() + range.from;
   const int count = range.to - range.from;
   unsigned char touches[Block3d::size + Block3d::spare];
@@ -71,11 +71,10 @@ void find_touching(const PairProperties<Law, Effects>& properties, const Motion3
 #pragma omp simd
   for (int k = 0; k < count; ++k) {
     const std::size_t i = static_cast<std::size_t>(grain[k]), j = static_cast<std::size_t>(partner[k]);
-    const double dx = apart.x[k], dy = apart.y[k], dz = apart.z[k], reach = properties.reach(i, j);
+    const double dx = apart.x[k], dy = apart.y[k], dz = apart.z[k], reach = reach_of(i, j);
     touches[k] = dx * dx + dy * dy + dz * dz < reach * reach ? 1 : 0;
   }
-  if constexpr (keeps_history<Effects>)
-    if (leaves_trace) update_touch_flags_3d(range, touches, histories);
+  if (histories) update_touch_flags_3d(range, touches, *histories);
   block.touching = compress(touches, count, Kept<int>{places.data(), block.entry}, Kept<int>{grain, block.grain},
                             Kept<int>{partner, block.partner}, Kept<double>{apart.x, block.dx},
                             Kept<double>{apart.y, block.dy}, Kept<double>{apart.z, block.dz});
@@ -166,9 +165,8 @@ inline void as_rows(const Columns3d& columns, int from, Four (&rows)[4]) {
 }
 
 /// Adds the forces of a block to its grains, contact by contact in the order of the list.
-template <class Effects>
-void add_block(const Block3d& block, PairResult3d& result) {
-  constexpr bool rotation = Effects::rotation;
+template <bool rotation, bool same_torques>
+[[gnu::noinline]] void add_block(const Block3d& block, PairResult3d& result) {
   Four *forces = reinterpret_cast<Four*>(result.forces), *torques = reinterpret_cast<Four*>(result.torques);
   result.foreign_count = 0;
   for (int from = 0; from < block.touching; from += 4) {
@@ -176,7 +174,7 @@ void add_block(const Block3d& block, PairResult3d& result) {
     as_rows(block.force, from, force);
     if constexpr (rotation) {
       as_rows(block.torque, from, own);
-      as_rows(same_torques<Effects> ? block.torque : block.partner_torque, from, other);
+      as_rows(same_torques ? block.torque : block.partner_torque, from, other);
     }
     const int count = block.touching - from < 4 ? block.touching - from : 4;
     for (int k = 0; k < count; ++k) {
@@ -200,19 +198,19 @@ template <class Law, class Effects>
                                      PairRange range, const ContactParameters& parameters, const ContactStep& step,
                                      ContactHistories& histories, PairResult3d& result) {
   const PairProperties<Law, Effects> properties(grains, parameters);
-  const bool leaves_trace = step.commit != 0;
+  const bool leaves_trace = keeps_history<Effects> && step.commit != 0;
   Block3d block;
-  find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
-  await_records<Effects>(histories, range.from, block.touching);
-  fetch_motion<Effects>(at.motion, block);
+  find_touching(properties.reach(), at, list, range, leaves_trace ? &histories : nullptr, block);
+  if constexpr (keeps_history<Effects>) await_records<RecordOf<Effects>>(histories, range.from, block.touching);
+  fetch_motion<Effects::damping || Effects::friction, Effects::rotation>(at.motion, block);
   BlockHistories3d block_histories;
-  load_block<Effects>(histories, block.entry, range.from, block.whole_vectors(), block_histories);
+  load_block<RecordOf<Effects>>(histories, block.entry, range.from, block.whole_vectors(), block_histories);
   result.metrics =
       forces_of_touching<Law, Effects>({properties, parameters.arm_shortening, step, block, block_histories});
-  if (keeps_history<Effects> && leaves_trace)
-    store_block<Effects>(
-        block_histories, block.entry, range.from, block.touching, [&](int k) { return range.from + k; }, histories);
-  add_block<Effects>(block, result);
+  if (leaves_trace)
+    store_block<RecordOf<Effects>>(block_histories, block.entry, range.from, block.touching, PlacesFrom{range.from},
+                                   histories);
+  add_block<Effects::rotation, same_torques<Effects>>(block, result);
   result.contacts = block.touching;
 }
 

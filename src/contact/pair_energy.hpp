@@ -14,7 +14,7 @@ double pair_energy(const GrainSurfaces& grains, const Motion& at, const PairList
       list,
       [&](std::size_t i, std::size_t j) {
         const double dx = at.x[j] - at.row_x[i], dy = at.y[j] - at.y[i];
-        return PairReach{properties.reach(i, j), dx * dx + dy * dy};
+        return PairReach{properties.reach()(i, j), dx * dx + dy * dy};
       },
       [&](std::size_t k, std::size_t i, std::size_t j, double overlap) {
         energy += contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),

@@ -62,11 +62,12 @@ inline void fill_up(PairBlock& block) {
   }
 }
 
-/// Finds the pairs of a range whose grains touch. Those that do not lose their history, where the evaluation leaves a
-/// trace.
-template <class Law, class Effects>
-void find_touching(const PairProperties<Law, Effects>& properties, const Motion& at, const PairList& list,
-                   PairRange range, bool leaves_trace, ContactHistories& histories, PairBlock& block) {
+// What goes over a whole block without the law is not inlined: compiled once, not for each choice of effects.
+
+/// Finds the pairs of a range whose grains touch. Those that do not lose their history, where there are `histories`.
+template <bool polydisperse>
+[[gnu::noinline]] void find_touching(const Reach<polydisperse> reach_of, const Motion& at, const PairList& list,
+                                     PairRange range, ContactHistories* histories, PairBlock& block) {
   const double *x = at.x, *row_x = at.row_x, *y = at.y;
   const int *grain = list.grain.data() + range.from, *partner = list.partner.data() + range.from;
   const int count = range.to - range.from;
@@ -75,12 +76,11 @@ void find_touching(const PairProperties<Law, Effects>& properties, const Motion&
 #pragma omp simd
   for (int k = 0; k < count; ++k) {
     const std::size_t i = static_cast<std::size_t>(grain[k]), j = static_cast<std::size_t>(partner[k]);
-    const double dx = x[j] - row_x[i], dy = y[j] - y[i], reach = properties.reach(i, j);
+    const double dx = x[j] - row_x[i], dy = y[j] - y[i], reach = reach_of(i, j);
     all_dx[k] = dx, all_dy[k] = dy;
     touches[k] = dx * dx + dy * dy < reach * reach ? 1 : 0;
   }
-  if constexpr (keeps_history<Effects>)
-    if (leaves_trace) part(range, touches, histories, [&histories](std::size_t entry) { histories.forget(entry); });
+  if (histories) part(range, touches, *histories, [histories](std::size_t entry) { histories->forget(entry); });
   block.touching =
       compress(touches, count, Kept<int>{places.data(), block.entry}, Kept<int>{grain, block.grain},
                Kept<int>{partner, block.partner}, Kept<double>{all_dx, block.dx}, Kept<double>{all_dy, block.dy});
@@ -182,7 +182,7 @@ template <class Law, class Effects>
 
 /// Adds the forces of a block to its grains, four contacts at a time. The spare number of a sum takes up whichever
 /// torque is not its own.
-inline void add_block(const PairBlock& block, PairResult& result) {
+[[gnu::noinline]] inline void add_block(const PairBlock& block, PairResult& result) {
   Four* sums = reinterpret_cast<Four*>(result.forces);
   result.foreign_count = 0;
   const auto add = [&](int k, const Four& force) {
@@ -213,14 +213,13 @@ template <class Law, class Effects>
                                   const ContactParameters& parameters, const ContactStep& step,
                                   ContactHistories& histories, PairResult& result) {
   const PairProperties<Law, Effects> properties(grains, parameters);
-  const bool leaves_trace = step.commit != 0;
+  const bool leaves_trace = keeps_history<Effects> && step.commit != 0;
   PairBlock block;
-  find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
+  find_touching(properties.reach(), at, list, range, leaves_trace ? &histories : nullptr, block);
   BlockHistories block_histories;
   result.metrics =
       forces_of_touching<Law, Effects>(properties, at, range.from, parameters, step, histories, block, block_histories);
-  if (keeps_history<Effects> && leaves_trace)
-    store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);
+  if (leaves_trace) store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);
   add_block(block, result);
   result.contacts = block.touching;
 }

@@ -43,6 +43,18 @@ inline PairConstants pair_constants(const GrainSurface& a, const GrainSurface& b
   return p;
 }
 
+/// The distance of their centres, m, below which two grains touch.
+template <bool polydisperse>
+struct Reach {
+  const double* radius;
+  double equal;
+
+  double operator()(std::size_t i, std::size_t j) const {
+    if constexpr (polydisperse) return radius[i] + radius[j];
+    return equal;
+  }
+};
+
 /// Properties of two grains as the kernel sees them: constants for equal grains, worked out pair by pair for
 /// polydisperse ones from the same expressions, so that both give the same bits for equal grains.
 template <class Law, class Effects>
@@ -56,10 +68,7 @@ class PairProperties {
     }
   }
 
-  double reach(std::size_t i, std::size_t j) const {
-    if constexpr (Effects::polydisperse) return grains_.radius[i] + grains_.radius[j];
-    return equal_.reach;
-  }
+  Reach<Effects::polydisperse> reach() const { return {grains_.radius, equal_.reach}; }
   double radius(std::size_t i) const {
     if constexpr (Effects::polydisperse) return grains_.radius[i];
     return 0.5 * equal_.reach;

@@ -99,7 +99,7 @@ template <class Law, class Effects>
       fetch(count, velocity, [&](int k, Four& row) { row = as_four(at.motion[grain[k]].velocity); });
     if constexpr (Effects::rotation)
       fetch(count, spin, [&](int k, Four& row) { row = as_four(at.motion[grain[k]].spin); });
-    load_block<Effects>(histories, candidate, 0, count, block_histories);
+    load_block<RecordOf<Effects>>(histories, candidate, 0, count, block_histories);
     const LawMetrics here = forces_of_walls<Law, Effects>({properties,
                                                            parameters.arm_shortening,
                                                            step,
@@ -118,8 +118,7 @@ template <class Law, class Effects>
     metrics.max_relative_overlap = std::max(metrics.max_relative_overlap, here.max_relative_overlap);
     metrics.slip_raised += here.slip_raised;
     if (keeps_history<Effects> && step.commit != 0)
-      store_block<Effects>(
-          block_histories, candidate, 0, count, [candidate](int k) { return candidate[k]; }, histories);
+      store_block<RecordOf<Effects>>(block_histories, candidate, 0, count, PlacesOfEntries{candidate}, histories);
   }
   return metrics;
 }
