@@ -194,6 +194,8 @@ expect 0 "^vibrosow: warning: tray.pieces: piece 1 covers hole 1" check seeder.t
 expect 0 "drawing outline.dxf: 1 piece" run seeder.toml --out drawn-run "${drawn[@]}"
 grep -q "piece 1 covers hole 1" drawn-run/run.json || fail "run.json does not carry the warning of a covered hole"
 expect 0 "tilted by 5 degree, right end up" check seeder.toml --set "tray.tilt=5 degree"
+"$program" check seeder.toml --set "tray.tilt=5 degree" | tr -s ' \n' ' ' | grep -q "gravity and the direction of its motion are not: 0 degree is level" ||
+  fail "check does not say in which frame gravity and the direction of a tilted tray's motion are"
 fast=(--set "tray.motion.kind=harmonic" --set "tray.motion.direction=0 degree" --set "tray.motion.amplitude=0.1 um" --set "tray.motion.frequency=6 kHz")
 expect 0 "at most 8.333e-06 s: 20 steps in a period of the motion" check seeder.toml "${fast[@]}"
 expect 2 "longest safe step is 8.333e-06 s \(bound by 20 steps in a period of the motion\)" run seeder.toml "${fast[@]}" --set "numerics.dt=50 us"

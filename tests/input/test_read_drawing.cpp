@@ -1,6 +1,7 @@
 #include "input/read_drawing.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -155,6 +156,8 @@ TEST(Dxf, WhatCannotBeReadIsNamedWithItsLine) {
   const auto error = [](const std::string& text) { return error_of([&] { read_dxf(text, "a.dxf"); }); };
   EXPECT_EQ(error(dxf("0\nSPLINE\n70\n1\n")),
             "a.dxf:16: SPLINE cannot be read; LINE, LWPOLYLINE, ARC and CIRCLE can (explode it)");
+  for (const std::string entity : {"INSERT", "ELLIPSE", "POLYLINE"})
+    EXPECT_THAT(error(dxf("0\n" + entity + "\n8\nfloor\n")), testing::StartsWith("a.dxf:16: " + entity + " cannot be"));
   EXPECT_EQ(error(dxf("0\nLINE\n10\n1\n20\ntwo\n11\n3\n21\n4\n")), "a.dxf:20: \"two\" is no number");
   EXPECT_EQ(error(dxf("0\nLINE\n10\n1\n20\n2\n11\n3\n")), "a.dxf:16: LINE has no group 21");
   EXPECT_EQ(error(dxf("", "99")), "a.dxf:8: $INSUNITS: 99 is no unit of a drawing that can be read");
