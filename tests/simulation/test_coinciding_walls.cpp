@@ -189,6 +189,16 @@ TEST_P(CoincidingWalls, LinesOfACurvePushAsItDoesHoweverFineTheyAre) {
     }
 }
 
+// In a bowl hardly wider than the seed lines touch it that lie far from the nearest, each like the one before it.
+TEST_P(CoincidingWalls, OfTheLinesOfANarrowBowlTheNearestPushesAlone) {
+  Bench bench(GetParam());
+  const double radius = 1.02 * Bench::radius, angle = 3 * degree, overlap = 1e-3 * Bench::radius;
+  bench.scene.tray.pieces = chords(radius, angle), bench.scene.tray.box = false;
+  bench.place(0.5, 0.5 - radius * std::cos(0.5 * angle) + Bench::radius - overlap);
+  const double stiffness = Bench::mass * standard_gravity / (1e-4 * Bench::radius);
+  EXPECT_NEAR(force_on(bench.start(1e-6), 0).y() / (stiffness * overlap), 1, 1e-9);
+}
+
 /// Pulled down and to the right, a ball slides and rolls over walls with springs; where it is and how fast, for a
 /// while.
 std::vector<double> slides_over(const std::vector<WallPiece>& pieces, Space space, bool rotation, bool rolling) {

@@ -158,6 +158,31 @@ TEST_P(ContactDetails, ALookAtTheForcesLeavesNoTrace) {
   EXPECT_EQ(memory_of(run.state().contacts), before);
   // Of both contacts the slip and the roll, in 3D the parts of them that there are in this plane.
   EXPECT_EQ(std::ranges::count_if(before, [](double x) { return x != 0; }), is_3d() ? 5 : 4);
+  // Nor where nothing touches at that moment, as in the middle of a step it may not.
+  for (const double direction : {-1, 1}) run.grains().x[direction < 0 ? 0 : 1] += direction * 1e-4;
+  for (double& height : run.grains().y) height += 1e-4;
+  run.field().evaluate(run.time(), {});
+  EXPECT_EQ(force_on(run, 0).norm(), 0);
+  EXPECT_EQ(memory_of(run.state().contacts), before);
+}
+
+// By as much as the two have moved past each other: a wall's speed at a step's end alone would be half a step late.
+TEST_P(ContactDetails, ASpringSlipsWithTheMeanSpeedOfItsWall) {
+  Bench bench(GetParam());
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.contact.wall.friction = 5, bench.scene.contact.rotation = false;
+  bench.scene.contact.friction_model = FrictionModel::spring;
+  const double amplitude = 2e-6, omega = 2 * Bench::pi * 200;
+  bench.scene.tray.motion = HarmonicMotion{.amplitude = amplitude, .frequency = omega / (2 * Bench::pi)};
+  bench.place(0.5, r * (1 - 1e-4), amplitude * omega, 0);
+  const double dt = 2e-6;
+  Simulation& run = bench.start(dt);
+  for (int k = 0; k < 5; ++k) {
+    run.steps(200);
+    const double moved = run.grains().x[0] - 0.5 - amplitude * std::sin(omega * run.time());
+    EXPECT_GT(std::abs(moved), 1e-8) << "it swings on its spring";
+    EXPECT_NEAR(memory_of(run.state().contacts)[0], moved, 1e-3 * dt * amplitude * omega) << run.time() << " s";
+  }
 }
 
 TEST_P(ContactDetails, NothingIsRememberedOfWhatHasParted) {
