@@ -54,6 +54,19 @@ TEST_P(Room, GoesRoundAShelfAndThroughWhatASeedPasses) {
   EXPECT_TRUE(holds(v, 0.02, 0.01)) << "a gap of 4.1 mm";
 }
 
+/// A wall down to a hole in the floor, and a lid over all behind it: a seed that sinks into the hole is out, and does
+/// not come up again behind the wall.
+TEST_P(Room, DoesNotGoRoundThroughAHole) {
+  Vessel v = box();
+  const double depth = v.depth.value_or(0);
+  v.holes = {{.centre = 0.05, .width = 0.04, .across = depth / 2, .across_length = depth}};
+  v.pieces = {{.a = {0.05, 0.003}, .b = {0.05, 0.03}}, {.a = {0.05, 0.03}, .b = {0.1, 0.03}}};
+  EXPECT_TRUE(holds(v, 0.04, 0.01));
+  EXPECT_FALSE(holds(v, 0.06, 0.01)) << "3 mm over the hole, for seeds of 4";
+  v.pieces[0].a.y() = 0.005;
+  EXPECT_TRUE(holds(v, 0.06, 0.01)) << "5 mm over it";
+}
+
 TEST(Room3d, LiesOverAGrooveAlongTheVessel) {
   Vessel v;
   v.name = "tray";
@@ -96,6 +109,8 @@ TEST_P(Room, OfADrumIsReachedAsIfItsUpperHalfWereOpen) {
   EXPECT_TRUE(holds(v, 0.03, 0.055));
   EXPECT_FALSE(holds(v, 0.03, 0.03)) << "in its shaft";
   EXPECT_FALSE(holds(v, 0.002, 0.002)) << "in the corner beside it";
+  EXPECT_FALSE(holds(v, 0.002, 0.058)) << "in the corner over it, open above as it is";
+  EXPECT_FALSE(holds(v, 0.058, 0.058));
 }
 
 /// Two slopes that end over an outlet, and beside them places that lie as open above.
@@ -190,6 +205,12 @@ TEST_P(Room, GoesOnAcrossPeriodicEnds) {
   v.sides = Sides::periodic;
   v.pieces = {{.a = {0.03, 0}, .b = {0.03, 0.058}}, {.a = {0.03, 0.058}, .b = {0.1, 0.03}}};
   EXPECT_TRUE(holds(v, 0.06, 0.01)) << "open to the next image's left part";
+  v.pieces.push_back({.a = {0.03, 0.02}, .b = {0.05, 0.02}});
+  v.pieces.push_back({.a = {0.05, 0.02}, .b = {0.05, 0}});
+  for (const double period : {-v.length, 0.0, v.length}) {
+    EXPECT_TRUE(holds(v, period + 0.06, 0.01)) << "where a seed lies that is not carried over yet: " << period;
+    EXPECT_FALSE(holds(v, period + 0.04, 0.01)) << "in a closed box: " << period;
+  }
   v.sides = Sides::walls;
   EXPECT_FALSE(holds(v, 0.06, 0.01));
 }

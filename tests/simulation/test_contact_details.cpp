@@ -148,6 +148,26 @@ std::vector<double> memory_of(const ContactState& contacts) {
   return all;
 }
 
+// The overlap is shared as the shells yield, r / m of each, and friction acts where they meet: none turns from nothing.
+TEST_P(ContactDetails, FrictionActsOnTwoUnequalGrainsAtOnePoint) {
+  for (const double other_radius : {0.5 * r, 2 * r}) {
+    Bench bench(GetParam());
+    SeedLot other = bench.scene.lots[0];
+    other.name = "other", other.diameter = 2 * other_radius, other.mass = 3 * Bench::mass, other.number_fraction = 0.5;
+    bench.scene.lots[0].number_fraction = 0.5;
+    bench.scene.lots.push_back(other);
+    bench.scene.contact.seed.friction = 0.4;
+    const double overlap = 0.02 * r, distance = r + other_radius - overlap;
+    bench.place(0.5, 0.5, 0, 1).place(0.5 + distance, 0.5, 0, 0, 0, 1);
+    const Simulation& run = bench.start(1e-9);
+    const double yields = r / Bench::mass, other_yields = other_radius / (3 * Bench::mass);
+    const double arm = r - overlap * yields / (yields + other_yields), friction = force_on(run, 0).y();
+    EXPECT_LT(friction, 0);
+    EXPECT_NEAR(torque_on(run, 0) / friction, arm, 1e-6 * r) << other_radius;
+    EXPECT_NEAR(torque_on(run, 1) / friction, distance - arm, 1e-6 * r) << other_radius;
+  }
+}
+
 TEST_P(ContactDetails, ALookAtTheForcesLeavesNoTrace) {
   Bench bench(GetParam());
   set_sliding(bench);

@@ -138,6 +138,25 @@ TEST(Neighbours, OutliveGrainsThatGoOnAsTheyDid) {
   }
 }
 
+// A grain's lists last longer the farther it flies on as it did, at last over many of its diameters: the wall at the
+// end of its way must be in them.
+TEST(Neighbours, SeeTheWallAtTheEndOfALongWay) {
+  for (const Space space : both_spaces)
+    for (const Eigen::Vector3d& to : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, -1, 0),
+                                      Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1)}) {
+      if (to.z() != 0 && space == Space::two_dimensional) continue;
+      Bench bench(space);
+      constexpr double speed = 2, way = 0.5 - Bench::radius;
+      Simulation& run = bench.place(Eigen::Vector3d(0.5, 0.5, 0.5), speed * to).start(1e-5);
+      ASSERT_TRUE(run.run_until(0.4)) << *run.guard().stop_reason();
+      const Eigen::Vector3d middle(0.5, 0.5, space == Space::two_dimensional ? 0 : 0.5);
+      const double flown = speed * (run.time() - bench.contact_time());
+      EXPECT_LT((velocity_of(run.grains(), 0) + speed * to).norm(), 1e-3 * speed) << to.transpose();
+      EXPECT_LT((place_of(run.grains(), 0) - middle - (2 * way - flown) * to).norm(), 0.1 * Bench::radius);
+      EXPECT_LT(run.field().neighbours().searches(), 40) << "lists must last";
+    }
+}
+
 TEST(Neighbours, MarginsChangeNoBit) {
   const auto narrow = start(busy_scene(), {.wide = 0.4, .narrow = 0.02});
   const auto wide = start(busy_scene(), {.wide = 2.0, .narrow = 0.5});

@@ -128,6 +128,32 @@ TEST(Rain, OverATiltedTrayFallsIntoItsOpening) {
     }
 }
 
+TEST(Rain, OverATiltedTrayComesDownPlumbOnItsRangeOfTheOpening) {
+  for (const Space space : both_spaces)
+    for (const double tilt : {-0.35, 0.35}) {
+      Scene scene = wet();
+      scene.space = space;
+      if (space == Space::three_dimensional) scene.tray.depth = 0.05;
+      scene.tray.tilt = tilt;
+      scene.tray.height = 0.04;
+      scene.tray.rain = Rain{200, 0.09, 0.11, 0.2, 0, 0.1};
+      Simulation run(prepare(scene), 1);
+      const auto own = [&](const Eigen::Vector3d& at) { return point_in_vessel(scene.tray, {}, at); };
+      const Eigen::Vector3d down = own(-Eigen::Vector3d::UnitY()) - own(Eigen::Vector3d::Zero());
+      std::size_t seen = 0;
+      while (run.time() < 0.1) {
+        ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
+        for (; seen < run.grains().size(); ++seen) {
+          const Eigen::Vector3d from = own(run.grains().place(seen));
+          const double opening = from.x() + (scene.tray.height - from.y()) / down.y() * down.x();
+          EXPECT_GE(opening, 0.09 - 1e-9) << "tilted by " << tilt;
+          EXPECT_LE(opening, 0.11 + 1e-9) << "tilted by " << tilt;
+        }
+      }
+      EXPECT_GT(seen, 5u);
+    }
+}
+
 TEST(Rain, WaitsWhileATableHasTippedTheTrayOver) {
   Scene scene = wet();
   scene.tray.fill = Fill{10, Packing::layers, 0, true};

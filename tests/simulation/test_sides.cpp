@@ -103,6 +103,34 @@ TEST(PeriodicSides, AHopperHoldsItsSeedsInEveryPeriod) {
       }
 }
 
+/// In the tray's period the hopper stands at the end that the grain flies away from.
+TEST(PeriodicSides, AGrainReboundsFromTheHopperOfThePeriodToEitherSide) {
+  for (const Space space : both_spaces)
+    for (const int axis : {0, 2})
+      for (const double speed : {1.0, -1.0}) {
+        if (axis == 2 && space == Space::two_dimensional) continue;
+        Bench bench(space);
+        Scene& scene = bench.scene;
+        scene.tray.height = 0.1;
+        scene.tray.sides = scene.tray.front_and_back = Sides::periodic;
+        Vessel& hopper = scene.hopper.emplace(scene.tray);
+        hopper.name = "hopper", hopper.sides = hopper.front_and_back = Sides::walls;
+        hopper.height = 0.4;
+        const double beside = 2e-3, from = speed > 0 ? beside : 0.5, to = speed > 0 ? 0.5 : 1 - beside;
+        hopper.origin = {axis == 0 ? from : beside, 0.2}, hopper.length = axis == 0 ? to - from : 1 - 2 * beside;
+        if (axis == 2) hopper.front = from, hopper.depth = to - from;
+        const double wall = speed > 0 ? 1 + beside : -beside, way = 0.03,
+                     touch = wall - std::copysign(Bench::radius, speed);
+        Eigen::Vector3d at(0.5, 0.4, 0.5);
+        at[axis] = touch - way * speed;
+        Simulation& run = bench.place(at, speed * Eigen::Vector3d::Unit(axis)).start(1e-5);
+        ASSERT_TRUE(run.run_until(2 * way)) << *run.guard().stop_reason();
+        EXPECT_NEAR(velocity_of(run.grains(), 0)[axis], -speed, 1e-3) << axis << ", " << speed;
+        const double back = touch - (run.time() - way - bench.contact_time()) * speed;
+        EXPECT_NEAR(place_of(run.grains(), 0)[axis], back, 0.1 * Bench::radius) << axis << ", " << speed;
+      }
+}
+
 TEST(PeriodicSides, ASeedAtRestInAHopperDoesNotGoToAndFro) {
   Scene scene = slice_under_hopper(Space::two_dimensional, 0, 0.1);
   scene.tray.motion = HarmonicMotion{0, 12e-3, 12, 0};  // further than the diameter of a seed
@@ -289,7 +317,7 @@ TEST_P(PeriodicPairs, KeepTheirSpringsAcrossTheSeam) {
   for (const int axis : {0, 2})
     for (const double speed : {3.0, -3.0}) {
       if (axis == 2 && GetParam() == Space::two_dimensional) continue;
-      const auto after = [&](double place) {
+      const auto after = [&](double place, bool first_ahead) {
         Bench bench(GetParam());
         bench.scene.tray.sides = bench.scene.tray.front_and_back = Sides::periodic;
         Contact& contact = bench.scene.contact;
@@ -300,7 +328,10 @@ TEST_P(PeriodicPairs, KeepTheirSpringsAcrossTheSeam) {
         Eigen::Vector3d at(0.5, 0.5, 0.5);
         at[axis] = place;
         const Eigen::Vector3d arm = (Bench::radius + 1e-5) * along, spin(7, 11, 30);
-        bench.place(at - arm, (speed + 0.1) * along + across, spin).place(at + arm, speed * along, -spin);
+        const auto behind = [&] { bench.place(at - arm, (speed + 0.1) * along + across, spin); };
+        if (!first_ahead) behind();
+        bench.place(at + arm, speed * along, -spin);
+        if (first_ahead) behind();
         Simulation& run = bench.start(1e-5);
         while (run.time() < 0.012)
           if (!run.step()) throw std::runtime_error(*run.guard().stop_reason());
@@ -310,8 +341,12 @@ TEST_P(PeriodicPairs, KeepTheirSpringsAcrossTheSeam) {
           moves.push_back(velocity_of(run.grains(), i)), moves.push_back(Bench::radius * turning_of(run.grains(), i));
         return moves;
       };
-      const auto within = after(0.5), over = after(speed > 0 ? 0.995 : 0.005);
-      for (std::size_t k = 0; k < within.size(); ++k) EXPECT_LT((within[k] - over[k]).norm(), 1e-9) << axis << speed;
+      // Where the first is ahead, the seam's list has the two in the other order than the tray's own.
+      for (const bool first_ahead : {false, true}) {
+        const auto within = after(0.5, first_ahead), over = after(speed > 0 ? 0.995 : 0.005, first_ahead);
+        for (std::size_t k = 0; k < within.size(); ++k)
+          EXPECT_LT((within[k] - over[k]).norm(), 1e-9) << axis << ", " << speed << ", " << first_ahead;
+      }
     }
 }
 
