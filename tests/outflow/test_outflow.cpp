@@ -256,7 +256,7 @@ TEST(FlowChanged, IsNotSaidOfBursts) {
 
 TEST(FlowChanged, IsNotSaidOfADrivesOwnRhythm) {
   Scene scene = made_up_scene(1);
-  const vibrosow::Run run = run_of_seconds(scene, {90, 90, 90, 90, 10, 10, 10, 10});
+  vibrosow::Run run = run_of_seconds(scene, {90, 90, 90, 90, 10, 10, 10, 10});
   const auto says = [&](double period) {
     scene.tray.motion = HarmonicMotion{.amplitude = 0.01, .frequency = 1 / period};
     const std::vector<Doubt> doubts = measure_outflow(scene, run).doubts;
@@ -266,6 +266,9 @@ TEST(FlowChanged, IsNotSaidOfADrivesOwnRhythm) {
   EXPECT_FALSE(says(8));
   EXPECT_FALSE(says(4)) << "two periods, which may take turns";
   EXPECT_TRUE(says(2));
+  run.status = RunStatus::interrupted;
+  run.end_time = 9.8;
+  EXPECT_FALSE(says(2)) << "without the end of the fourth, two pairs of periods would share seeds";
 }
 
 TEST(Note, SaysClogsLossesFewSeedsAndAFeederThatFellBehind) {

@@ -49,7 +49,7 @@ BedSeed seed_of(const Basis& basis) {
           {{kind, Eigen::Vector3d::Zero()}}};
 }
 
-/// h^2 k / 4 + h c / 2 over 1 + c h / (2 m_c), times `per_mass`: what is to be 9/16.
+/// h^2 k / 4 + h c / 2 over 1 + c h / (2 m_c), times `per_mass`: what is to be 9/16, or 9/10 of a lattice.
 double used(double h, double stiffness, double dashpot, double yield, double per_mass) {
   return per_mass * (h * h * stiffness / 4 + h * dashpot / 2) / (1 + h * dashpot * yield / 2);
 }
@@ -64,6 +64,24 @@ TEST(BedVibration, OfAPairIsThatOfItsSpringAndDashpot) {
       const double zeta = basis.model.contacts.pairs.front().damping_ratio;
       const double dashpot = 2 * zeta * std::sqrt(k / per_mass);
       EXPECT_NEAR(used(longest_stable_step(basis.step, bed), k, dashpot, per_mass, per_mass), 9.0 / 16, 0.004)
+          << restitution;
+    }
+}
+
+/// However few of them touch in the bed, equal seeds may come to lie as close as can be. There, without friction, the
+/// square of their fastest vibration is 6 k / m in the plane and 8 k / m in space.
+TEST(BedVibration, OfEqualSeedsHoldsForTheirClosestPackingToo) {
+  for (const Space space : both_spaces)
+    for (const double restitution : {1.0, 0.5}) {
+      Scene scene = scene_of(space, restitution, false);
+      scene.lots[0].sizes = {};
+      const Basis basis(scene);
+      const GrainKind& kind = basis.model.kinds.front();
+      const PackedBed bed{{seed_of(basis), seed_of(basis)}, {{0, 1, 0, 0, Eigen::Vector3d(0.6, 0.8, 0)}}};
+      const double k = with_grain(basis.step, kind, kind).stiffness, yield = 2 / kind.mass;
+      const double dashpot = 2 * basis.model.contacts.pairs.front().damping_ratio * std::sqrt(k / yield);
+      const double fastest = (space == Space::two_dimensional ? 6 : 8) / kind.mass;
+      EXPECT_NEAR(used(longest_stable_step(basis.step, bed), k, dashpot, yield, fastest), 9.0 / 10, 0.006)
           << restitution;
     }
 }

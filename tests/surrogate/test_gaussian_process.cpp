@@ -125,6 +125,22 @@ TEST(GaussianProcess, KnowsHowFarItErrsFromFewValuesToo) {
   EXPECT_GT(of_all, of_the_likeliest + 20);
 }
 
+/// A value that stands alone may be chance or not, and covariances disagree about it. Each by itself is at its place at
+/// least as sure as the value is, whose variance is the noise; where they disagree, all together are less so.
+TEST(GaussianProcess, DoubtsAValueOfWhichItsCovariancesDisagree) {
+  constexpr Index count = 16;
+  MatrixXd points(count, 1);
+  VectorXd values(count);
+  for (Index i = 0; i < count; ++i) {
+    points(i, 0) = (static_cast<double>(i) + 0.5) / count;
+    values(i) = i == 0 ? 1 : i % 2 == 0 ? 0.02 : -0.02;
+  }
+  const GaussianProcess process(points, values);
+  const Kriging likeliest(points, values, process.covariance());
+  EXPECT_LT(likeliest.at(points.topRows(1)).variance(0), process.covariance().noise);
+  EXPECT_GT(process.at(points.topRows(1)).variance(0), 1.3 * process.noise());
+}
+
 TEST(GaussianProcess, TakesAPlaneForAPlane) {
   const MatrixXd points = hypercube(15, 2, 1);
   const VectorXd values = 3 + 2 * points.col(0).array() - points.col(1).array();

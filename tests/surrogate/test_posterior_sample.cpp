@@ -88,6 +88,21 @@ TEST(PosteriorSample, HoldsTheSurrogatesOwnError) {
   EXPECT_NEAR(weighted_deviation(fit.mean, known.weights), std::sqrt(own + 1e-6), 0.1 * std::sqrt(own));
 }
 
+/// Where a surrogate knows less, a value that fits is less likely: the density of a wide normal is low in its middle.
+TEST(PosteriorSample, WeighsPointsByTheDensityOfTheValueThere) {
+  const MatrixXd points = 0.4 * hypercube(12, 1, 5);  // nothing is known beyond
+  const GaussianProcess surrogate(points, (8 * points.array()).sin().matrix());
+  const double value = 0.5, chance = 0.2 * 0.2;
+  const PosteriorSample known =
+      posterior_sample({{{&surrogate}, VectorXd::Constant(1, value), MatrixXd::Constant(1, 1, chance)}}, 1);
+  const GaussianPrediction fit = surrogate.at(known.points);
+  const VectorXd variance = fit.variance.array() + chance;
+  ASSERT_GT(variance.maxCoeff(), 4 * variance.minCoeff());
+  VectorXd density = (-0.5 * (fit.mean.array() - value).square() / variance.array()).exp() / variance.array().sqrt();
+  density /= density.sum();
+  EXPECT_LT((known.weights - density).cwiseAbs().maxCoeff(), 1e-9 * density.maxCoeff());
+}
+
 TEST(PosteriorSample, SaysWhereNoPointFits) {
   const GaussianProcess surrogate = plane(0, {1, 0});
   const MatrixXd chance = MatrixXd::Constant(1, 1, 0.01);
