@@ -269,6 +269,8 @@ TEST(FlowChanged, IsNotSaidOfADrivesOwnRhythm) {
   run.status = RunStatus::interrupted;
   run.end_time = 9.8;
   EXPECT_FALSE(says(2)) << "without the end of the fourth, two pairs of periods would share seeds";
+  run = run_of_seconds(scene, {90, 90, 10, 10, 90, 90, 10, 10});
+  EXPECT_FALSE(says(2)) << "of four periods two and two are compared, not the first with the last";
 }
 
 TEST(Note, SaysClogsLossesFewSeedsAndAFeederThatFellBehind) {
