@@ -78,7 +78,7 @@ bool visit_seats(const Vessel& vessel, const std::vector<SeedLot>& lots, Space s
 }
 
 bool is_outside_of_drum(const std::optional<DrumCircle>& drum, const Eigen::Vector2d& seat, double radius) {
-  constexpr double slack = 1e-3;  // of the radius
+  constexpr double slack = 1e-9;  // of the radius: what is put in may overlap a wall by no more
   return drum && (seat - drum->centre).norm() + (1 - slack) * radius >= drum->radius;
 }
 

@@ -88,12 +88,12 @@ std::vector<Vessel> hopper_images(const Scene& scene) {
 }
 
 std::optional<ImageFault> image_fault(const Scene& scene) {
-  constexpr double rounding = 1 + 1e-9;
+  constexpr double rounding = 1e-9;
   const auto [along, across] = periods_of(scene);
   if (along == 0 && across == 0) return std::nullopt;
   const Vessel& hopper = *scene.hopper;
   const double left = hopper.origin.x() - scene.tray.origin.x();
-  if (along > 0 && !(left >= 0 && left + hopper.length <= along * rounding))
+  if (along > 0 && !(left >= -rounding * along && left + hopper.length <= along * (1 + rounding)))
     return ImageFault{"left", "the hopper does not lie within the length of the periodic tray"};
   const BoundingBox own = reach_of(hopper, scene.space);
   const Eigen::Vector3d size = own.high - own.low;
@@ -103,7 +103,7 @@ std::optional<ImageFault> image_fault(const Scene& scene) {
     if (period == 0) continue;
     const int axis = is_along ? 0 : 2;
     const double taken = period_taken(hopper, size, is_along);
-    if (taken > period * rounding)
+    if (taken > period * (1 + rounding))
       return ImageFault{is_along ? "length" : "depth",
                         fmt::format("the hopper, as it leans and turns and with its pieces, takes {:.4g} mm {} a "
                                     "periodic tray of {:.4g} mm: it would pass through the hopper of the next period",

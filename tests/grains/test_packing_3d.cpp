@@ -240,6 +240,19 @@ TEST(Packing3d, ClumpsArePouredIntoADrumUpToItsWall) {
   EXPECT_LT(std::ranges::min_element(grains, {}, &PackedGrain::y)->y, 0.25 * lots[0].diameter) << "it lies";
 }
 
+// Above its middle a drum grows narrower: what touches its side at the widest place and lies a little higher is in it.
+TEST(Packing3d, ADrumIsFilledAboveItsMiddle) {
+  Vessel drum = box(Packing::poured, 90);
+  drum.length = drum.height = 0.03, drum.depth = 0.012, drum.box = false;
+  drum.pieces = {{.centre = {0.015, 0.015}, .radius = 0.015, .from = 0, .to = 2 * std::numbers::pi}};
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    double furthest = 0;
+    for (const PackedGrain& grain : packed(drum, one_lot(), seed))
+      furthest = std::max(furthest, std::hypot(grain.x - 0.015, grain.y - 0.015));
+    EXPECT_LT(furthest, 0.015 - (1 - 1e-9) * diameter / 2) << "seed " << seed;
+  }
+}
+
 TEST(Packing3d, ADrumIsPouredIntoBesideItsLifters) {
   Vessel drum = box(Packing::poured, 40);
   drum.length = drum.height = 0.1, drum.depth = 0.012, drum.box = false;

@@ -13,6 +13,7 @@
 #include <set>
 #include <sstream>
 
+#include "compute/nearest_image.hpp"
 #include "fields/map_part.hpp"
 #include "fields/mean_map.hpp"
 #include "fields/packing_fraction.hpp"
@@ -662,15 +663,19 @@ TEST(DrawnScene, StepsMirroredInItsMirrorImage) {
 
 // ---- maps ----
 
-/// What discs (balls) fill from the floor line up to `top`, m2 (m3), of those that lie in a part.
-double filled_up_to(double top, const Snapshot& own, const std::vector<SeedLot>& lots, const MapPart& part) {
+/// What discs (balls) fill from the floor line up to `top`, m2 (m3), of those that lie in a part; a clump's balls may
+/// lie beyond the seam that its centre is before.
+double filled_up_to(double top, const Snapshot& own, const Scene& scene, const MapPart& part) {
+  const std::vector<SeedLot>& lots = scene.lots;
+  const bool closes = scene.tray.front_and_back == Sides::periodic;
   constexpr double far = std::numeric_limits<double>::infinity();
   double sum = 0;
   for (const CoveringDisc& disc : covering_discs(own, lots)) {
     const double low = -disc.y, high = top - disc.y, r = disc.radius;
     if (!own.is_3d())
       sum += disc.fraction * disc_in_rectangle(r, {-2 * r, low}, {2 * r, high});
-    else if (disc.z >= part.front && disc.z <= part.back)
+    else if (const double z = closes ? within_period(disc.z, *scene.tray.depth) : disc.z;
+             z >= part.front && z <= part.back)
       sum += disc.fraction * ball_in_box(r, {-far, low, -far}, {far, high, far});
   }
   return sum;
@@ -696,7 +701,7 @@ std::string map_loses_seeds(const DrawnScene& drawn) {
   const double cell = map.grid.cell * map.grid.cell * (own.is_3d() ? part.depth() : 1);
   const double mapped = cell * std::accumulate(map.packing.begin(), map.packing.end(), 0.0);
   const double top = map.grid.cell * static_cast<double>(cells_over(scene.tray.height, map.grid.cell));
-  const double filled = filled_up_to(top, own, scene.lots, part);
+  const double filled = filled_up_to(top, own, scene, part);
   return std::abs(mapped - filled) <= 1e-9 * filled
              ? ""
              : fmt::format("its map has {} of what the seeds in it fill, {}", mapped, filled);

@@ -91,7 +91,7 @@ std::set<std::string> changing(const Scene& scene, const MeasuringWindow& window
     if (!moves_evenly(vessel, window)) keys.insert(vessel.name + ".motion");
     for (const Hole& hole : vessel.holes)
       if (hole.open_at > window.from + rounding) keys.insert(vessel.name + ".holes.open_at");
-    if (vessel.rain && vessel.rain->start > scene.run.measure_from) keys.insert(vessel.name + ".rain.start");
+    if (vessel.rain && vessel.rain->start > window.from + rounding) keys.insert(vessel.name + ".rain.start");
     if (vessel.rain && is_within(vessel.rain->stop)) keys.insert(vessel.name + ".rain.stop");
   }
   return keys;
