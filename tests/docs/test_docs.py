@@ -89,7 +89,7 @@ def settings(name):
 
 def check_claims():
     """That each sentence of claims.toml stands in its document, and holds of the committed tables."""
-    known = {one.__name__: one for one in (cell, column, costs_ns, holes, relative, mean_rate, near, settings, held_out, table)} | {"math": math}
+    known = {one.__name__: one for one in (cell, column, costs_ns, holes, relative, mean_rate, near, settings, held_out, rows_with, table)} | {"math": math}
     for claim in tomllib.loads((ROOT / "tests/docs/claims.toml").read_text(encoding="utf-8"))["claim"]:
         for document, says in [(claim["document"], claim["says"]), *claim.get("also", [])]:
             text = " ".join((ROOT / document).read_text(encoding="utf-8").split())
