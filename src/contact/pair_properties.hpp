@@ -68,7 +68,10 @@ class PairProperties {
     }
   }
 
-  Reach<Effects::polydisperse> reach() const { return {grains_.radius, equal_.reach}; }
+  Reach<Effects::polydisperse> reach() const {
+    if constexpr (Effects::polydisperse) return {grains_.radius, 0};
+    return {grains_.radius, equal_.reach};
+  }
   double radius(std::size_t i) const {
     if constexpr (Effects::polydisperse) return grains_.radius[i];
     return 0.5 * equal_.reach;
