@@ -8,13 +8,13 @@ namespace vibrosow::inline VIBROSOW_ISA {
 
 /// Where the parts of a record of ContactHistories lie: rows of four, the slip, then roll and twist.
 template <bool has_slip, bool has_roll>
-struct Record {
+struct ContactRecord {
   static constexpr bool slips = has_slip, rolls = has_roll;
   static constexpr std::size_t slip = 0, roll = slips ? 4 : 0, twist = roll + 3;
   static constexpr std::size_t length = HistoryKinds{slips, rolls, true}.record_length();
 };
 template <class Effects>
-using RecordOf = Record<Effects::spring, Effects::rolling == Rolling::spring>;
+using RecordOf = ContactRecord<Effects::spring, Effects::rolling == Rolling::spring>;
 
 /// A record's numbers, each at `at(n)`.
 template <class Record, class At>
@@ -85,7 +85,6 @@ void await_records(const ContactHistories& histories, int first, int count) {
 template <class Record>
 [[gnu::noinline]] void load_block(const ContactHistories& histories, const int* entry, int first, int count,
                                   BlockHistories3d& of_block) {
-  if constexpr (Record::length == 0) return;
   const RecordsRead<Record> records(histories);
   const auto record = [=](int k) { return records[first + entry[k]]; };
   int k = 0;

@@ -204,7 +204,8 @@ template <class Law, class Effects>
   if constexpr (keeps_history<Effects>) await_records<RecordOf<Effects>>(histories, range.from, block.touching);
   fetch_motion<Effects::damping || Effects::friction, Effects::rotation>(at.motion, block);
   BlockHistories3d block_histories;
-  load_block<RecordOf<Effects>>(histories, block.entry, range.from, block.whole_vectors(), block_histories);
+  if constexpr (keeps_history<Effects>)
+    load_block<RecordOf<Effects>>(histories, block.entry, range.from, block.whole_vectors(), block_histories);
   result.metrics =
       forces_of_touching<Law, Effects>({properties, parameters.arm_shortening, step, block, block_histories});
   if (leaves_trace)

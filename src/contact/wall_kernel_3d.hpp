@@ -99,7 +99,8 @@ template <class Law, class Effects>
       fetch(count, velocity, [&](int k, Four& row) { row = as_four(at.motion[grain[k]].velocity); });
     if constexpr (Effects::rotation)
       fetch(count, spin, [&](int k, Four& row) { row = as_four(at.motion[grain[k]].spin); });
-    load_block<RecordOf<Effects>>(histories, candidate, 0, count, block_histories);
+    if constexpr (keeps_history<Effects>)
+      load_block<RecordOf<Effects>>(histories, candidate, 0, count, block_histories);
     const LawMetrics here = forces_of_walls<Law, Effects>({properties,
                                                            parameters.arm_shortening,
                                                            step,

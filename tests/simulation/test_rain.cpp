@@ -104,14 +104,18 @@ TEST(Rain, ComesAtRestInTheLabWithinItsRangeAndOverlapsNothing) {
   EXPECT_EQ(run.result().balance.put_in, static_cast<std::int64_t>(seen));
 }
 
+Scene wet_and_tilted(Space space, double tilt) {
+  Scene scene = wet();
+  scene.space = space;
+  if (space == Space::three_dimensional) scene.tray.depth = 0.05;
+  scene.tray.tilt = tilt, scene.tray.height = 0.04;
+  return scene;
+}
+
 TEST(Rain, OverATiltedTrayFallsIntoItsOpening) {
   for (const Space space : both_spaces)
     for (const double tilt : {-0.35, 0.0, 0.35}) {
-      Scene scene = wet();
-      scene.space = space;
-      if (space == Space::three_dimensional) scene.tray.depth = 0.05;
-      scene.tray.tilt = tilt;
-      scene.tray.height = 0.04;
+      Scene scene = wet_and_tilted(space, tilt);
       scene.tray.rain = Rain{200, 0, 0.2, 0.2, 0, 0.15};
       scene.contact.seed = scene.contact.wall = {0.3, 0.1};
       scene.run.duration = 0.6;
@@ -131,11 +135,7 @@ TEST(Rain, OverATiltedTrayFallsIntoItsOpening) {
 TEST(Rain, OverATiltedTrayComesDownPlumbOnItsRangeOfTheOpening) {
   for (const Space space : both_spaces)
     for (const double tilt : {-0.35, 0.35}) {
-      Scene scene = wet();
-      scene.space = space;
-      if (space == Space::three_dimensional) scene.tray.depth = 0.05;
-      scene.tray.tilt = tilt;
-      scene.tray.height = 0.04;
+      Scene scene = wet_and_tilted(space, tilt);
       scene.tray.rain = Rain{200, 0.09, 0.11, 0.2, 0, 0.1};
       Simulation run(prepare(scene), 1);
       const auto own = [&](const Eigen::Vector3d& at) { return point_in_vessel(scene.tray, {}, at); };
