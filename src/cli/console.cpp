@@ -8,10 +8,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <new>
 #include <string_view>
+#include <system_error>
 
 #include "cli/commands.hpp"
+#include "scene/input_error.hpp"
 #include "scene/printable.hpp"
 
 namespace vibrosow {
@@ -69,6 +72,23 @@ std::string typed_line(const std::vector<std::string>& words) {
     line += " " + (is_plain ? word : shell_quoted(word));
   }
   return line;
+}
+
+int exit_code_of(const std::function<int()>& program) {
+  try {
+    return program();
+  } catch (const InputError& error) {
+    complain(error.what());
+  } catch (const std::system_error& error) {
+    complain(error.what());
+  } catch (const std::exception& error) {
+    complain(fmt::format("a defect of the program, please report it with your file: {}", error.what()));
+    return exit_defect;
+  } catch (...) {
+    complain("a defect of the program, please report it with your file");
+    return exit_defect;
+  }
+  return exit_wrong_input;
 }
 
 std::optional<std::string> output_error() {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
 
 /// Prints "vibrosow: TEXT" on standard error, one line whatever the text. Never throws.
 void complain(const std::string& text);
+
+/// What `program` returns; where it throws, complains and returns the code of what it threw: wrong input for an
+/// `InputError` and for what the system refuses, such as a file that cannot be written; a defect for all else.
+int exit_code_of(const std::function<int()>& program);
 
 /// A word that a shell takes as it is.
 std::string shell_quoted(const std::string& word);

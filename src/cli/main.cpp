@@ -9,7 +9,6 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -143,18 +142,7 @@ int main(int argument_count, char** arguments) {
   using namespace vibrosow;
   make_streams_safe();
   end_when_memory_runs_out();
-  try {
+  return exit_code_of([&] {
     return run_program(renamed({arguments + std::min(1, argument_count), arguments + argument_count}));
-  } catch (const InputError& error) {
-    complain(error.what());
-  } catch (const std::system_error& error) {  // of the file system
-    complain(error.what());
-  } catch (const std::exception& error) {
-    complain(fmt::format("a defect of the program, please report it with your file: {}", error.what()));
-    return exit_defect;
-  } catch (...) {
-    complain("a defect of the program, please report it with your file");
-    return exit_defect;
-  }
-  return exit_wrong_input;
+  });
 }

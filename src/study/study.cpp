@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -155,19 +156,24 @@ Scene untitled(Scene scene) {
   return scene;
 }
 
-/// The scene of each layout, each different one kept once, and whether measured conditions are a layout's own. All on
-/// one parsed base.
+/// Keys and values, in their order.
+std::string text_of(const Changes& changes) {
+  std::string text;
+  for (const Override& change : changes) text += change.key + "=" + (change.value ? toml_text(*change.value) : "") + "\n";
+  return text;
+}
+
+/// The scene of each layout, each different one kept once. All on one parsed base.
 class Scenes {
  public:
   Scenes(Study& study, std::shared_ptr<SourceFiles> files) : study_(study), files_(std::move(files)) {}
 
   void resolve() {
-    std::map<std::string, std::size_t> known;
     for (Layout& layout : study_.layouts) {
       try {
         const auto [scene, drill, drawings] = read_seeder(study_.base, layout.overrides, files_);
         prepare_to_run(scene);
-        const auto [place, is_new] = known.try_emplace(scene_to_json(untitled(scene)), study_.scenes.size());
+        const auto [place, is_new] = places_.try_emplace(scene_to_json(untitled(scene)), study_.scenes.size());
         if (is_new) study_.scenes.push_back(scene);
         layout.scene = place->second;
         layout.drill = drill;
@@ -176,26 +182,27 @@ class Scenes {
       } catch (const InputError& error) {
         layout.invalid = error.what();
       }
+      made_by_.emplace(text_of(layout.overrides), layout.scene);
     }
   }
 
-  /// Conditions fit a layout when, laid over it, they change nothing; so a condition that the study does not name means
-  /// the base's value.
-  bool fit(const Layout& layout, const MeasuredSeries& series) const {
-    if (!layout.scene) return false;
-    if (series.conditions.empty()) return true;
-    Changes changes = layout.overrides;
-    add_changes(changes, conditions_of(series));
+  /// Which of the study's scenes these changes of the base make; none where they make another, or none at all.
+  std::optional<std::size_t> made_by(const Changes& changes) {
+    const auto [made, is_new] = made_by_.try_emplace(text_of(changes));
+    if (!is_new) return made->second;
     try {
-      return untitled(read_scene(study_.base, changes, files_)) == untitled(study_.scenes[*layout.scene]);
-    } catch (const InputError&) {
-      return false;
+      const auto place = places_.find(scene_to_json(untitled(read_scene(study_.base, changes, files_))));
+      if (place != places_.end()) made->second = place->second;
+    } catch (const InputError&) {  // conditions under which no layout stands
     }
+    return made->second;
   }
 
  private:
   Study& study_;
   std::shared_ptr<SourceFiles> files_;
+  std::map<std::string, std::size_t> places_;                   // of a scene by what it says
+  std::map<std::string, std::optional<std::size_t>> made_by_;  // by the text of changes
 };
 
 /// That a layout can be measured as the series was.
@@ -206,31 +213,37 @@ void check_layout_measurable(const MeasuredPart& part, const MeasuredSeries& ser
     throw InputError(fmt::format("{}: measured.scale = \"depth\" needs tray.depth", base.string()));
 }
 
-/// What fits, by layout and then by series, of layouts that are a table's own conditions under each of some designs:
-/// laid over one layout, the conditions of another make it that one, so scenes tell it without being read anew.
-std::vector<MeasuredMatch> matches_of_own_conditions(const Study& study, std::size_t conditions) {
-  const std::vector<std::size_t> places = places_of_conditions(study.measured->table);
-  std::vector<std::vector<std::size_t>> series_at(conditions);
+/// What fits, by layout and then by series. Conditions fit a layout when, laid over it, they change nothing; so a
+/// condition that the study does not name means the base's value. Layouts that differ in what is laid over them alone
+/// become one and the same, which is read once.
+std::vector<MeasuredMatch> matches_of(const Study& study, Scenes& scenes) {
+  const MeasuredTable& table = study.measured->table;
+  const std::vector<Changes> conditions = measured_grid(table);
+  std::vector<std::vector<std::size_t>> series_at(conditions.size());
+  const std::vector<std::size_t> places = places_of_conditions(table);
   for (std::size_t series = 0; series < places.size(); ++series) series_at[places[series]].push_back(series);
-  std::vector<MeasuredMatch> matches;
-  for (std::size_t first = 0; first < study.layouts.size(); first += conditions) {
-    std::map<std::size_t, std::vector<std::size_t>> series_of;  // by scene
-    for (std::size_t k = 0; k < conditions; ++k)
-      if (const auto scene = study.layouts[first + k].scene)
-        std::ranges::copy(series_at[k], std::back_inserter(series_of[*scene]));
-    for (std::size_t layout = first; layout < first + conditions; ++layout)
-      if (const auto scene = study.layouts[layout].scene)
-        for (const std::size_t series : series_of[*scene]) matches.push_back({layout, series});
+  const auto is_laid_over = [&](const Override& change) {
+    return std::ranges::find(table.condition_keys, change.key) != table.condition_keys.end();
+  };
+  std::map<std::string, std::map<std::size_t, std::vector<std::size_t>>> alike;  // layouts, by the rest and by scene
+  for (std::size_t layout = 0; layout < study.layouts.size(); ++layout) {
+    if (!study.layouts[layout].scene) continue;
+    Changes rest = study.layouts[layout].overrides;
+    std::erase_if(rest, is_laid_over);
+    alike[text_of(rest)][*study.layouts[layout].scene].push_back(layout);
   }
-  std::ranges::sort(matches, {}, [](const MeasuredMatch& match) { return std::pair(match.layout, match.series); });
-  return matches;
-}
-
-std::vector<MeasuredMatch> matches_of(const Study& study, const Scenes& scenes) {
   std::vector<MeasuredMatch> matches;
-  for (std::size_t layout = 0; layout < study.layouts.size(); ++layout)
-    for (std::size_t series = 0; series < study.measured->table.series.size(); ++series)
-      if (scenes.fit(study.layouts[layout], study.measured->table.series[series])) matches.push_back({layout, series});
+  for (const auto& [rest, layouts_of] : alike)
+    for (std::size_t k = 0; k < conditions.size(); ++k) {
+      Changes changes = study.layouts[layouts_of.begin()->second.front()].overrides;
+      add_changes(changes, conditions[k]);
+      const std::optional<std::size_t> scene = scenes.made_by(changes);
+      const auto layouts = scene ? layouts_of.find(*scene) : layouts_of.end();
+      if (layouts == layouts_of.end()) continue;
+      for (const std::size_t layout : layouts->second)
+        for (const std::size_t series : series_at[k]) matches.push_back({layout, series});
+    }
+  std::ranges::sort(matches, {}, [](const MeasuredMatch& match) { return std::pair(match.layout, match.series); });
   return matches;
 }
 
@@ -348,7 +361,7 @@ Study read_study_with(const std::filesystem::path& file, const std::vector<Overr
   Scenes scenes(study, files);
   scenes.resolve();
   if (study.measured && !study.scenes.empty())
-    match_measured(study, vary ? matches_of(study, scenes) : matches_of_own_conditions(study, grid.size()));
+    match_measured(study, matches_of(study, scenes));
   return study;
 }
 

@@ -483,5 +483,18 @@ TEST_P(Insertion, AWrongPlaceIsToldFromALongStep) {
   EXPECT_THAT(*run.guard().stop_reason(), testing::Not(testing::HasSubstr("numerics.dt")));
 }
 
+/// No input is known to put a seed wrongly, so the seeds are made larger than what their places were sought for.
+TEST_P(Insertion, AWrongPlaceInARunStopsIt) {
+  Scene scene = soft(GetParam());
+  scene.tray.fill = Fill{200, Packing::poured, 1e-3, true};
+  Model model = prepare(scene);
+  model.kinds.front().radius *= 1.1;
+  Simulation run(model, starting_state(model, 1, no_grains(model)));
+  for (int step = 0; step < 2000 && run.step();) ++step;
+  ASSERT_TRUE(run.guard().stop_reason());
+  EXPECT_THAT(*run.guard().stop_reason(), testing::HasSubstr("was put in wrongly"));
+  EXPECT_THAT(*run.guard().stop_reason(), testing::HasSubstr("not of the step"));
+}
+
 }  // namespace
 }  // namespace vibrosow
