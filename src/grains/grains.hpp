@@ -23,6 +23,8 @@ struct GrainKind {
   /// 1/kg, of a clump's disc: how fast a force of 1 N moves it by turning its clump, on the mean over all directions in
   /// which it may be touched.
   double lever_yield = 0;
+
+  bool operator==(const GrainKind&) const = default;
 };
 
 /// What each lot's seeds are made of: its own values, or the contact's.

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <mutex>
 #include <numbers>
+#include <utility>
 
 #include "grains/clump_discs.hpp"
 #include "grains/orientation.hpp"
@@ -69,7 +72,7 @@ class Press {
     const SeedLot& lot = basis_.scene.lots[static_cast<std::size_t>(lot_index)];
     const double size = draw_size(lot, random_);
     BedSeed& seed = bed_.seeds.emplace_back();
-    seed.lot = lot_index;
+    seed.lot = lot_index, seed.size = size;
     seed.kind = sized_kind(lot, basis_.law, basis_.seeds[static_cast<std::size_t>(lot_index)], size);
     Body& body = bodies_.emplace_back();
     body.orientation = turned(draw_turn(lot, random_));
@@ -273,8 +276,50 @@ class Press {
 
 }  // namespace
 
+namespace {
+
+/// What a bed's places and contacts follow from: all of its seeds but how stiff they are.
+struct Pressed {
+  Space space;
+  std::vector<SeedLot> lots;
+  std::vector<GrainKind> seeds;  // by lot, of no compliance
+
+  explicit Pressed(const StepBasis& basis)
+      : space(basis.scene.space), lots(basis.scene.lots), seeds(basis.seeds) {
+    for (GrainKind& kind : seeds) kind.compliance = 0;
+  }
+  bool operator==(const Pressed&) const = default;
+};
+
+/// The same bed of seeds as stiff as these.
+PackedBed of_stiffness(PackedBed bed, const StepBasis& basis) {
+  for (BedSeed& seed : bed.seeds) {
+    const SeedLot& lot = basis.scene.lots[static_cast<std::size_t>(seed.lot)];
+    seed.kind = sized_kind(lot, basis.law, basis.seeds[static_cast<std::size_t>(seed.lot)], seed.size);
+    if (lot.discs.empty()) seed.discs.front().kind = seed.kind;
+    for (std::size_t k = 0; k < lot.discs.size(); ++k)
+      seed.discs[k].kind = kind_of_disc(seed.kind, lot.discs[k], seed.size, basis.law);
+  }
+  return bed;
+}
+
+}  // namespace
+
 PackedBed packed_bed(const StepBasis& basis) {
-  return Press(basis).packed();
+  constexpr std::size_t most_kept = 8;
+  static std::mutex mutex;
+  static std::deque<std::pair<Pressed, PackedBed>> kept;
+  Pressed pressed(basis);
+  {
+    const std::lock_guard lock(mutex);
+    const auto known = std::ranges::find(kept, pressed, &std::pair<Pressed, PackedBed>::first);
+    if (known != kept.end()) return of_stiffness(known->second, basis);
+  }
+  PackedBed bed = Press(basis).packed();
+  const std::lock_guard lock(mutex);
+  if (kept.size() == most_kept) kept.pop_front();
+  kept.emplace_back(std::move(pressed), bed);
+  return bed;
 }
 
 }  // namespace vibrosow

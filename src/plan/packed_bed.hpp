@@ -18,6 +18,7 @@ struct BedDisc {
 /// A seed of a packed bed as it lies.
 struct BedSeed {
   int lot;
+  double size;  // over the lot's diameter
   GrainKind kind;
   std::array<Eigen::Vector3d, 3> axes;  // principal ones, in the order of `kind.moments`
   std::vector<BedDisc> discs;
@@ -41,7 +42,8 @@ struct PackedBed {
 /// Seeds of all lots, their sizes and how they are turned drawn at random, pressed without friction between two plates
 /// until contacts are some hundredth of a diameter deep; along the plates the bed is periodic. So they have as many
 /// contacts as seeds ever have that lie anyhow: without friction some six in 3D and four in 2D are needed to
-/// hold, and those that the depth adds. The same scene has the same bed. In 2D every z is 0.
+/// hold, and those that the depth adds. The same scene has the same bed. In 2D every z is 0. The beds of the seeds that
+/// were asked for last are kept, since layouts of a study mostly differ in other things; safe from several threads.
 PackedBed packed_bed(const StepBasis& basis);
 
 }  // namespace vibrosow

@@ -44,6 +44,7 @@ Scene scene_of(Space space, double restitution, bool springs) {
 BedSeed seed_of(const Basis& basis) {
   const GrainKind& kind = basis.model.kinds.front();
   return {0,
+          1,
           kind,
           {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()},
           {{kind, Eigen::Vector3d::Zero()}}};
@@ -120,6 +121,29 @@ TEST(PackedBed, HasTheContactsOfOneThatHolds) {
   const Basis clumps(clump_scene(solid_lot(dipole(4e-3, 4e-3), 1e-4)));
   EXPECT_GT(contacts_a_seed(packed_bed(clumps.step)), 8);  // five ways to move, without friction
   EXPECT_LT(contacts_a_seed(packed_bed(clumps.step)), 14);
+}
+
+TEST(PackedBed, IsOfSeedsAsStiffAsItsScenesWhateverWasPackedBefore) {
+  Scene balls = scene_of(Space::three_dimensional, 0.5, true);
+  for (const Scene& scene : {balls, clump_scene(solid_lot(dipole(4e-3, 4e-3), 1e-4))}) {
+    const Basis soft(scene);
+    const PackedBed before = packed_bed(soft.step);
+    Scene stiffer = scene;
+    stiffer.contact.shell_compression /= 7;
+    const Basis stiff(stiffer);
+    const PackedBed bed = packed_bed(stiff.step);
+    ASSERT_EQ(bed.contacts.size(), before.contacts.size());
+    ASSERT_EQ(bed.seeds.size(), before.seeds.size());
+    for (std::size_t s = 0; s < bed.seeds.size(); ++s) {
+      EXPECT_DOUBLE_EQ(bed.seeds[s].kind.compliance, before.seeds[s].kind.compliance / 7);
+      for (std::size_t k = 0; k < bed.seeds[s].discs.size(); ++k)
+        EXPECT_DOUBLE_EQ(bed.seeds[s].discs[k].kind.compliance, before.seeds[s].discs[k].kind.compliance / 7);
+    }
+    Scene larger = scene;
+    for (SeedLot& lot : larger.lots) lot.mass *= 2;
+    const Basis heavy(larger);
+    EXPECT_DOUBLE_EQ(packed_bed(heavy.step).seeds.front().kind.mass, 2 * bed.seeds.front().kind.mass);
+  }
 }
 
 TEST(PackedBed, HasSeedsOfEveryLotAndIsTheSameAgain) {
