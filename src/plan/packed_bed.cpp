@@ -284,8 +284,7 @@ struct Pressed {
   std::vector<SeedLot> lots;
   std::vector<GrainKind> seeds;  // by lot, of no compliance
 
-  explicit Pressed(const StepBasis& basis)
-      : space(basis.scene.space), lots(basis.scene.lots), seeds(basis.seeds) {
+  explicit Pressed(const StepBasis& basis) : space(basis.scene.space), lots(basis.scene.lots), seeds(basis.seeds) {
     for (GrainKind& kind : seeds) kind.compliance = 0;
   }
   bool operator==(const Pressed&) const = default;

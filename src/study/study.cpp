@@ -159,7 +159,8 @@ Scene untitled(Scene scene) {
 /// Keys and values, in their order.
 std::string text_of(const Changes& changes) {
   std::string text;
-  for (const Override& change : changes) text += change.key + "=" + (change.value ? toml_text(*change.value) : "") + "\n";
+  for (const Override& change : changes)
+    text += change.key + "=" + (change.value ? toml_text(*change.value) : "") + "\n";
   return text;
 }
 
@@ -201,7 +202,7 @@ class Scenes {
  private:
   Study& study_;
   std::shared_ptr<SourceFiles> files_;
-  std::map<std::string, std::size_t> places_;                   // of a scene by what it says
+  std::map<std::string, std::size_t> places_;                  // of a scene by what it says
   std::map<std::string, std::optional<std::size_t>> made_by_;  // by the text of changes
 };
 
@@ -360,8 +361,7 @@ Study read_study_with(const std::filesystem::path& file, const std::vector<Overr
   add_keys(study.keys, grid.front());
   Scenes scenes(study, files);
   scenes.resolve();
-  if (study.measured && !study.scenes.empty())
-    match_measured(study, matches_of(study, scenes));
+  if (study.measured && !study.scenes.empty()) match_measured(study, matches_of(study, scenes));
   return study;
 }
 
