@@ -464,6 +464,10 @@ class SceneWriter {
       else
         pieces.push_back(fmt::format("{{ centre = {}, radius = {} }}", point(middle, middle), mm(middle)));
       if (draw_.one_in(name + ".lifter", 2)) line({point(middle, 0.02 * l), point(middle, 0.15 * l)});
+      const int lifters = draw_.below(name + ".lifters", 5);  // at the axis, above it, both, or a paddle through it
+      if (lifters == 1 || lifters == 3) line({point(0.99 * l, middle), point(0.8 * l, middle)});
+      if (lifters == 2 || lifters == 3) line({point(0.16 * l, 0.84 * l), point(0.28 * l, 0.72 * l)});
+      if (lifters == 4) line({point(0.2 * l, middle), point(0.8 * l, middle)});
     } else if (!vessel.box) {  // two slopes, a gap between them
       line({point(0, 0.9 * h), point(0, 0.5 * h), point(middle - 8, 1)});
       line({point(middle + 8, 1), point(l, 0.5 * h), point(l, 0.9 * h)});
@@ -472,7 +476,7 @@ class SceneWriter {
       pieces.push_back(fmt::format("{{ line = {}, drawn_out = \"along\" }}", list(points)));
     };
     const double d = vessel.depth;
-    const int kinds = deep_ ? 15 : 10;
+    const int in_both = 13, kinds = deep_ ? 18 : in_both;
     for (const char* which : {".piece", ".other_piece"}) {
       const int drawn = vessel.drum ? 0 : draw_.below(name + which, 3 * kinds);
       const int kind = drawn < kinds ? drawn : 0;                                          // most have none
@@ -484,21 +488,63 @@ class SceneWriter {
       if (kind == 6) line({point(0, 0), point(l, 0)});                                     // a floor drawn twice
       if (kind == 7)
         line({point(middle, 0), point(middle, 0.5 * h)}), line({point(middle, 0.25 * h), point(l, 0.5 * h)});
-      if (kind == 8) line({point(l, 0), point(l, h)});            // an end wall drawn twice
-      if (kind == 9) arc(0.3 * l, 0.3 * h, 0.2 * l, 200, 340);    // a bowl
-      if (kind == 10 && draw_.one_in(name + which + ".roof", 2))  // beneath it seeds come from all sides
+      if (kind == 8) line({point(l, 0), point(l, h)});          // an end wall drawn twice
+      if (kind == 9) arc(0.3 * l, 0.3 * h, 0.2 * l, 200, 340);  // a bowl
+      if (kind == 10) line(fine_bowl(draw_.number(name + which + ".fine", 8, 60), vessel));
+      if (kind == 11) pieces.push_back(drawn_bowl(vessel, which));
+      if (kind == 12) pieces.push_back(drawn_hump(vessel, which));
+      if (kind == 13 && draw_.one_in(name + which + ".roof", 2))  // beneath it seeds come from all sides
         turned({point(0, 0.5 * h), point(0.3 * std::min(l, d), 0.4 * h)}, middle, d / 2, "upright");
-      else if (kind == 10)
+      else if (kind == 13)
         turned({point(6, 0), point(6, 0.4 * h)}, middle, d / 2, "upright");
-      if (kind == 11) turned({point(4, 0), point(4, l)}, 0.4 * h, vessel.depth / 2, "along");
-      if (kind == 12) along({point(0, 0.35 * h), point(0.5 * d, 0), point(d, 0.3 * h)});  // a groove
-      if (kind == 13) along({point(0, 0.4 * h), point(0.6 * d, 0.25 * h)});               // a shelf
-      if (kind == 14)                                                                     // a trough
+      if (kind == 14) turned({point(4, 0), point(4, l)}, 0.4 * h, vessel.depth / 2, "along");
+      if (kind == 15) along({point(0, 0.35 * h), point(0.5 * d, 0), point(d, 0.3 * h)});  // a groove
+      if (kind == 16) along({point(0, 0.4 * h), point(0.6 * d, 0.25 * h)});               // a shelf
+      if (kind == 17)                                                                     // a trough
         pieces.push_back(fmt::format("{{ centre = {}, radius = {}, from = {}, to = {}, drawn_out = \"along\" }}",
                                      point(0.5 * d, 0.4 * h), mm(0.3 * d), degrees(200), degrees(330)));
     }
     if (vessel.holes > 0 && draw_.one_in(name + ".plate", 6)) line(plate_at_hole(vessel));
     if (!pieces.empty()) set(name + ".pieces", list(pieces));
+  }
+
+  /// A bowl of so many short lines.
+  std::vector<std::string> fine_bowl(double lines, const Shape& vessel) const {
+    const double x = 0.6 * vessel.length, y = 0.5 * vessel.height, radius = 0.3 * vessel.length;
+    const int count = static_cast<int>(lines);
+    std::vector<std::string> points;
+    for (int k = 0; k <= count; ++k) {
+      const double angle = (-2.6 + 2.1 * k / count);  // rad
+      points.push_back(point(x + radius * std::cos(angle), y + radius * std::sin(angle)));
+    }
+    return points;
+  }
+
+  /// An SVG of a curve, a line and what is no wall.
+  std::string drawn_bowl(const Shape& vessel, const std::string& which) {
+    const double l = vessel.length, h = vessel.height;
+    const std::string file = vessel.name + which + ".svg";
+    files["/drawn/" + file] = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:g}mm\" height=\"{1:g}mm\" viewBox=\"0 0 {0:g} {1:g}\">"
+        "<g style=\"fill:none;stroke:#000\"><path d=\"M {2:g},{3:g} C {2:g},{4:g} {5:g},{4:g} {5:g},{3:g} H "
+        "{6:g}\"/></g>"
+        "<text x=\"1\" y=\"5\">a bowl</text></svg>",
+        l, h, 0.3 * l, 0.5 * h, 0.9 * h, 0.6 * l, 0.75 * l);
+    return fmt::format("{{ file = {}{} }}", quoted(file),
+                       draw_.one_in(file + ".coarse", 3) ? ", tolerance = " + mm(0.3) : "");
+  }
+
+  /// A DXF of an arc, a line and one that nobody sees.
+  std::string drawn_hump(const Shape& vessel, const std::string& which) {
+    const std::string file = vessel.name + which + ".dxf";
+    const double radius = 0.12 * vessel.length;
+    files["/drawn/" + file] = fmt::format(
+        "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
+        "0\nARC\n8\nW\n10\n0\n20\n0\n40\n{0:g}\n50\n0\n51\n180\n"
+        "0\nLINE\n8\nW\n10\n{0:g}\n20\n0\n11\n{1:g}\n21\n{2:g}\n"
+        "0\nLINE\n8\nW\n60\n1\n10\n-99\n20\n0\n11\n99\n21\n0\n0\nENDSEC\n0\nEOF\n",
+        radius, 2 * radius, 0.5 * radius);
+    return fmt::format("{{ file = {}, at = {} }}", quoted(file), point(0.45 * vessel.length, 0.2 * vessel.height));
   }
 
   /// Level: near below the hole or further down, within the floor, near above or further up; over all of it or half.

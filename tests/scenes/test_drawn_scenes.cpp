@@ -746,6 +746,7 @@ TEST(DrawnScene, HasEveryFeatureAndIsMostlyTaken) {
   for (std::uint64_t number = 1; number <= looked_at; ++number) {
     const DrawnScene scene(number);
     for (const auto& [key, value] : scene.keys()) drawn.insert(key), drawn.insert(key + " = " + value);
+    for (const auto& [file, text] : scene.texts()) drawn.insert(file);
     if (number <= begun && start_of(scene)) ++taken;
   }
   for (const char* feature : {"space = \"3d\"",
@@ -783,6 +784,8 @@ TEST(DrawnScene, HasEveryFeatureAndIsMostlyTaken) {
                               "hopper.plan = \"round\"",
                               "tray.pieces",
                               "hopper.pieces",
+                              "/drawn/tray.piece.svg",
+                              "/drawn/tray.piece.dxf",
                               "tray.box = false",
                               "tray.tilt",
                               "hopper.tilt",
