@@ -11,6 +11,16 @@ test('the template is small and keeps the licence of what is in it', () => {
   assert.match(template, /earcut 3\.2\.4[\s\S]*ISC License[\s\S]*Mapbox[\s\S]*ogl 1\.0\.11[\s\S]*public domain/);
 });
 
+// Every text that is written on the replay, and where.
+function keepWritten() {
+  window.written = [];
+  const own = CanvasRenderingContext2D.prototype.fillText;
+  CanvasRenderingContext2D.prototype.fillText = function kept(text, x, y) {
+    if (this.canvas.id === 'replay-canvas') window.written.push({ text, y, high: this.canvas.height });
+    own.call(this, text, x, y);
+  };
+}
+
 for (const space of ['plane', 'three_dimensional']) {
   describe(space, () => {
     const run = madeUpRun(space);
@@ -46,6 +56,15 @@ for (const space of ['plane', 'three_dimensional']) {
       assert.deepEqual(await in_.shownCounts(page), new Map(run.data.holes.map((hole) => [hole.hole, hole.counted_all])));
       assert.notDeepEqual(before_, await in_.shownCounts(page));
     });
+
+    test('the counts stand under the holes, inside the picture', () => withPage(run, { first: keepWritten }, async (open) => {
+      await in_.scrubTo(open, 30);
+      const written = await open.evaluate(() => window.written);
+      for (const count of (await in_.shownCounts(open)).values()) {
+        const { y, high } = written.findLast(({ text }) => text === String(count));
+        assert.ok(y + 13 < high, `${count} at ${y} px of ${high}`);
+      }
+    }));
 
     test('scrubbing shows other grains, and counts until then', async () => {
       await in_.scrubTo(page, 5);

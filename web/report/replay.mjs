@@ -24,8 +24,8 @@ class Replay {
     const tray = Math.max(0, recording.vessels.indexOf('tray'));
     this.canvas = element('canvas', { id: 'replay-canvas', role: 'img', 'aria-label': 'The grains of the run' });
     this.under = recording.fields.includes('z') ? element('canvas', { 'aria-hidden': 'true' }) : null;
-    const View = this.under ? SpaceView : PlaneView;
-    this.view = new View(data, recording, labBox(data.vessels, recording), meanPose(recording, tray), this.under);
+    const looked = [data, recording, labBox(data.vessels, recording), meanPose(recording, tray)];
+    this.view = this.under ? new SpaceView(...looked, this.under) : new PlaneView(...looked);
     this.between = new Between(recording);
     player.smooth = this.under !== null;
     this.counters = new Counters(data.events, data.holes);
