@@ -15,19 +15,25 @@ const clump = [[-1.3, 1.1], [0, 1.4], [1.3, 1.1]].map(([x_mm, radius_mm]) => ({ 
 const reach = 2.4e-3;  // m, of the circle that holds it
 
 const trays = {
-  plane: { length: 0.3, holes: [0.06, 0.15, 0.24], half: 0.006 },
-  space: { length: 0.16, depth: 0.05, holes: [0.04, 0.08, 0.12], half: 0.006 },
+  plane: { length: 0.3, holes: [0.06, 0.15, 0.24], half: 0.006, rows: 6, across: 1 },
+  space: { length: 0.16, depth: 0.05, holes: [0.04, 0.08, 0.12], half: 0.006, rows: 4, across: 10 },
 };
 
-function seeds(tray, inSpace) {
-  const rows = inSpace ? 4 : 6, across = inSpace ? 10 : 1;
+// Row above row, so many as hold them.
+function placesOf(tray, count) {
   const pitch = 0.005;
-  const places = [];
-  for (let row = 0; row < rows; ++row) {
-    for (let x = pitch; x < tray.length - pitch / 2; x += pitch) {
-      for (let k = 0; k < across; ++k) places.push([x, (row + 0.5) * pitch, inSpace ? (k + 0.5) * pitch : 0]);
-    }
+  const row = [];
+  for (let x = pitch; x < tray.length - pitch / 2; x += pitch) {
+    for (let k = 0; k < tray.across; ++k) row.push([x, tray.depth ? (k + 0.5) * pitch : 0]);
   }
+  return Array.from({ length: count ?? tray.rows * row.length }, (_, k) => {
+    const [x, z] = row[k % row.length];
+    return [x, (Math.floor(k / row.length) + 0.5) * pitch, z];
+  });
+}
+
+function seeds(tray, count) {
+  const places = placesOf(tray, count);
   const sizes = (lot) => (lot === 0 ? 2.2e-3 : reach);
   return places.map((place, id) => {
     const lot = id % 3 === 2 ? 1 : 0;
@@ -159,11 +165,11 @@ export function sceneOf(title, [ball, joined], count) {
   };
 }
 
-/** data and recording of a run; `names` may replace texts: { title, lots }, and { version } of the recording: 1 has no forces. */
+/** data and recording of a run; `names` may replace texts: { title, lots }, { version } of the recording: 1 has no forces, and how many { seeds } there are. */
 export function madeUpRun(space, names = {}) {
   const inSpace = space === 'three_dimensional';
   const tray = inSpace ? trays.space : trays.plane;
-  const all = seeds(tray, inSpace);
+  const all = seeds(tray, names.seeds);
   const events = all.filter((seed) => seed.through <= duration).map((seed) => ({ time: seed.through, hole: seed.hole + 1, lot: seed.lot })).sort((a, b) => a.time - b.time);
   const times = Array.from({ length: inSpace ? 41 : 101 }, (_, k, all_ = inSpace ? 40 : 100) => (k * duration) / all_);
   const frames = times.map((time, k) => {

@@ -4,6 +4,7 @@ import { element, listChoice, section, shape } from './dom.mjs';
 import { textWithUnit, titleOf } from './layout_figures.mjs';
 import { layoutName } from './layout_words.mjs';
 import { plotFrame, roundAxis } from './plot.mjs';
+import { onTheme } from './theme.mjs';
 import { pointsOf, tradeSentence, unbeaten } from './trade.mjs';
 
 const height = 380;  // px
@@ -33,7 +34,9 @@ class Scatter {
     this.sentence, element('figure', { class: 'card' }, this.place, element('div', { class: 'chart-foot' }, this.reading, saveButtons('layouts', () => this.place.querySelector('svg'), () => this.table())),
       element('figcaption', {}, element('p', { class: 'legend' },
         element('span', { class: 'legend-item' }, element('span', { class: 'stroke front-stroke' }), 'layouts that no other beats in both, by their means'), look.legend(), element('span', {}, 'An arrow: it goes on.')))));
-    new ResizeObserver(() => { if (this.place.clientWidth !== this.width) this.draw(); }).observe(this.place);
+    const follow = () => { if (this.place.clientWidth !== this.width) this.draw(); };
+    new ResizeObserver(follow).observe(this.place);
+    onTheme(follow);
     chosen.onChange(() => this.mark());
     filter.onChange((shown) => { this.data = shown; this.draw(); });
   }

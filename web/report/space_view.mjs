@@ -8,6 +8,7 @@ import { composed, inverse, placed } from './geometry.mjs';
 import { GlPainter } from './gl_painter.mjs';
 import { drawHoleLabels } from './hole_labels.mjs';
 import { SpritePainter } from './sprite_painter.mjs';
+import { onPaper } from './theme.mjs';
 import { holesOf, wallsOf } from './walls.mjs';
 
 const below = 0.1;      // of the width is shown under the tray, where seeds fall
@@ -83,6 +84,7 @@ export class SpaceView {
     const motion = this.motion = shown.still ? composed(this.rest, inverse(shown.poseOf(this.tray))) : nowhere;
     const poses = this.parts.map(({ place }) => (place < 0 ? null : composed(motion, shown.poseOf(place))));
     this.painter.draw(stage, { ...shown, camera, motion, poses, cut: this.cut, radius: this.radius, least: this.leastChain });
+    if (onPaper() && !this.under.hidden) context.drawImage(this.under, 0, 0, width, height);  // what WebGL paints is not printed
     this.drawChosen(context, shown);
     this.drawCounts(context, shown);
     this.drawScale(context, shown.ink, height);

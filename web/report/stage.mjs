@@ -1,4 +1,5 @@
 // The canvas of the replay: as sharp as the screen, as wide as its place, and as high as the view asks for.
+import { onTheme } from './theme.mjs';
 
 export class Stage {
   constructor(canvas, heightOf, changed) {
@@ -7,6 +8,8 @@ export class Stage {
     this.heightOf = heightOf;
     this.changed = changed;
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
+    /** Ends what it hears of paper. */
+    this.leave = onTheme(() => { if (canvas.parentElement.clientWidth !== this.width) this.fit(); });
   }
 
   /** Sets the bitmap to the place on the page; what was drawn is gone. */

@@ -1,4 +1,4 @@
-// Light or dark: as the system has it until the reader says otherwise; light on paper.
+// Light or dark: as the system has it until the reader says otherwise; light on paper, of which listeners hear as of a theme.
 
 const listeners = new Set();
 const dark = globalThis.matchMedia?.('(prefers-color-scheme: dark)') ?? { matches: false };  // no window: a test of the page's parts
@@ -15,6 +15,11 @@ export function theme() {
 function apply() {
   document.documentElement.dataset.theme = theme();
   listeners.forEach((listener) => listener(theme()));
+}
+
+/** Whether the page is being printed. */
+export function onPaper() {
+  return printing;
 }
 
 export function toggleTheme() {
@@ -41,6 +46,7 @@ export function inks() {
 
 function print(begins) {
   printing = begins;
+  document.documentElement.toggleAttribute('data-paper', begins);  // as wide as a sheet, for what is drawn to its place's width
   apply();
 }
 

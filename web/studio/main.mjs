@@ -1,6 +1,7 @@
 // The studio: seeders that sow while one changes them.
 import { element } from '../report/dom.mjs';
 import { sentence } from '../report/format.mjs';
+import { paperStyle } from '../report/paper.mjs';
 import { startTheme } from '../report/theme.mjs';
 import { themeSwitch } from '../report/theme_switch.mjs';
 import { Bench } from './bench.mjs';
@@ -17,6 +18,7 @@ import { Share } from './share.mjs';
 import { readStudioData } from './studio_data.mjs';
 import { taskOf, Wanted } from './wanted.mjs';
 
+const title = 'Move a hole and watch it sow';
 const plainWords = 'A 2D slice one seed thick: use it to compare layouts; it is no sowing rate.';
 
 class Studio {
@@ -41,7 +43,7 @@ class Studio {
 
   head() {
     return [
-      element('div', { class: 'topline' }, element('h1', {}, 'Move a hole and watch it sow'), element('div', { class: 'actions' },
+      element('div', { class: 'topline' }, element('h1', {}, title), element('div', { class: 'actions' },
         this.undoButton, this.redoButton, this.resetButton, this.wanted.button, this.compareButton, this.share.button, this.sendButton, themeSwitch())),
       this.share.frame, this.wanted.frame,
       element('p', { class: 'plain' }, element('span', { class: 'roomy' }, 'Every seed is simulated here, in this page; a change starts the run again. '), element('b', {}, plainWords), this.said), this.notice,
@@ -196,7 +198,7 @@ async function show() {
   document.getElementById('head').replaceChildren(...studio.head());
   document.getElementById('page').replaceChildren(...studio.page());
   const { name = 'vibrosow', version = '' } = data.program;
-  document.getElementById('foot').replaceChildren(element('p', {}, `Written by ${name} ${version}. The simulator is in this file: it works without a network.`));
+  document.getElementById('foot').replaceChildren(element('p', {}, `Written by ${name} ${version}. The simulator is in this file: it works without a network.`), paperStyle({ kicker: 'Studio', title }, data.program));
   document.documentElement.dataset.ready = 'true';
 }
 

@@ -126,6 +126,7 @@ export class TrayView {
 
   close() {
     this.leaveTheme();
+    this.stage.leave();
     cancelAnimationFrame(this.due);
   }
 
