@@ -200,7 +200,7 @@ def check_pictures():
     linked = {(path.parent / link).resolve() for path in DOCUMENTS
               for link in re.findall(r"\]\(([^)\s]+)\)", path.read_text(encoding="utf-8"))}
     for folder in ("reports", "docs", "src"):
-        for picture in sorted(path for path in (ROOT / folder).rglob("*") if path.suffix in (".png", ".jpg", ".gif", ".svg")):
+        for picture in sorted(path for path in (ROOT / folder).rglob("*") if path.suffix in (".png", ".jpg", ".gif", ".svg", ".webp")):
             expect(picture in linked, f"{picture.relative_to(ROOT)}: no document shows it")
 
 

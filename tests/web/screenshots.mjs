@@ -1,11 +1,16 @@
-// Pictures of the pages that the program writes, to be looked at (reports/pages).
-// Usage: node tests/web/screenshots.mjs FOLDER, which holds NAME/report.html of each report below and studio/studio.html.
+// Pictures and films of the pages that the program writes, to be looked at (reports/pages).
+// Usage: node tests/web/screenshots.mjs FOLDER, which holds NAME/report.html of each report below and studio/studio.html, and of some of
+// them before.jpg, a picture of the same page as an older version made it.
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import * as in_ from './browser.mjs';
+import { drawnSmaller, filmOf } from './film.mjs';
 
 const reports = ['run', 'run-in-space', 'sweep', 'decision', 'front', 'accuracy', 'calibration'];
 const jpeg = { type: 'jpeg', quality: 77, animations: 'disabled' };
 const desktop = { width: 1280, height: 800 };
+const older = { type: 'image/jpeg', width: 640, quality: 0.72 };
+const film = { frames: 40, every: 90, frame: { type: 'image/webp', width: 720, quality: 0.6 } };  // every: ms
 const phone = { width: 390, height: 844 };
 const paper = { width: 720, height: 1018 };  // of A4 at 96 dpi, what is left within margins
 // What is shown of a page: the first screens on a desktop, and of the first page also those on a phone, one screen in the dark, one sheet of paper.
@@ -89,11 +94,82 @@ async function shootStudio(browser, folder) {
   });
 }
 
+// `next(k)` brings the page to the k-th frame. `place`: what of the page is filmed, in its window.
+async function shootFilm(browser, file, place, next) {
+  const frames = [], page = await browser.newPage();
+  const clip = await place.boundingBox();
+  let size;
+  for (let k = 0; k < film.frames; ++k) {
+    await next(k);
+    const { bytes, ...drawn } = await drawnSmaller(page, await place.page().screenshot({ clip, animations: 'disabled' }), film.frame);
+    frames.push({ webp: bytes, duration: film.every });
+    size = drawn;
+  }
+  await page.close();
+  writeFileSync(file, filmOf(frames, size));
+}
+
+// The replay's clock is the script's: a frame of a film takes longer to draw than it is shown.
+async function shootReplayFilm(browser, folder) {
+  const turnOfFrame = 4;  // px
+  await withPage(browser, path.join(folder, 'run-in-space', 'report.html'), {}, async (page) => {
+    const stage = page.locator('.replay .stage');
+    await in_.scrubTo(page, 0);
+    await page.getByRole('radio', { name: 'an eighth' }).check();
+    await page.getByRole('button', { name: 'Corner' }).click();
+    await stage.scrollIntoViewIfNeeded();
+    const { x, y, height } = await stage.boundingBox();
+    await page.clock.install();
+    await page.clock.pauseAt(Date.now() + 1000);
+    await page.getByRole('button', { name: 'Play' }).click();
+    await page.mouse.move(x + 40, y + height / 2);
+    await page.mouse.down();
+    await shootFilm(browser, path.join(folder, 'run-in-space.webp'), stage, async (k) => {
+      await page.clock.fastForward(film.every);
+      await page.waitForFunction(() => document.querySelector('#replay-canvas').ariaLabel.includes(` at ${document.querySelector('#replay-time').textContent}. `));
+      await page.mouse.move(x + 40 + turnOfFrame * k, y + height / 2);
+    });
+    await page.mouse.up();
+  });
+}
+
+// The simulator's clock is its own: for each frame it goes on for a while and rests again, which the transport's words need not say.
+async function shootStudioFilm(browser, folder) {
+  await withPage(browser, path.join(folder, 'studio', 'studio.html'), {}, async (page) => {
+    const place = bench(page, 'A');
+    await page.addStyleTag({ content: '.speed { visibility: hidden; }' });
+    const press = (name) => place.getByRole('button', { name, exact: true }).click();
+    await page.getByRole('radio', { name: 'Draft' }).check();
+    await page.waitForFunction(() => Number(document.querySelector('.bench canvas').dataset.time) > 0);
+    await press('Pause');
+    await shootFilm(browser, path.join(folder, 'studio.webp'), place.locator('.workbench'), async (k) => {
+      await press('Play');
+      await page.waitForFunction((time) => Number(document.querySelector('.bench canvas').dataset.time) >= time, ((k + 1) * film.every) / 1000);
+      await press('Pause');
+      await settled(page);
+    });
+  });
+}
+
+async function shootBefore(browser, folder) {
+  const page = await browser.newPage();
+  for (const name of [...reports, 'studio']) {
+    const file = path.join(folder, name, 'before.jpg');
+    if (!existsSync(file)) continue;
+    const { bytes } = await drawnSmaller(page, readFileSync(file), older);
+    writeFileSync(path.join(folder, `before-${name}.jpg`), bytes);
+  }
+  await page.close();
+}
+
 const folder = path.resolve(process.argv[2]);
 const browser = await in_.startBrowser();
 try {
   for (const name of reports) await shootReport(browser, folder, name);
   await shootStudio(browser, folder);
+  await shootReplayFilm(browser, folder);
+  await shootStudioFilm(browser, folder);
+  await shootBefore(browser, folder);
 } finally {
   await browser.close();
 }

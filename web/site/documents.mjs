@@ -3,7 +3,7 @@ import { readFileSync, readdirSync, statSync } from 'node:fs';
 import path from 'node:path';
 import { markdown } from './markdown.mjs';
 
-const pictures = new Set(['.png', '.jpg', '.gif', '.svg']);
+const pictures = new Set(['.png', '.jpg', '.gif', '.svg', '.webp']);
 export const { escapeHtml } = markdown.utils;
 
 const isDocument = (file) => file.endsWith('.md');
