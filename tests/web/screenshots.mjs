@@ -84,9 +84,11 @@ async function shootStudio(browser, folder) {
     await settled(page);
     await shoot(page, to('ended'), 1500);
     await page.getByRole('button', { name: 'Compare layouts' }).click();
+    await bench(page, 'B').getByRole('radio', { name: 'Holes', exact: true }).check();  // two have no room for all panels
     const moved = bench(page, 'B').getByRole('spinbutton', { name: 'Place of hole 2 in mm' });
     await moved.fill('190');
     await moved.press('Enter');
+    await bench(page, 'B').getByRole('radio', { name: 'Rates', exact: true }).check();
     await toTheEnd(bench(page, 'A'));
     await toTheEnd(bench(page, 'B'));
     await settled(page);
