@@ -96,15 +96,17 @@ async function shootStudio(browser, folder) {
   });
 }
 
-// `next(k)` brings the page to the k-th frame. `place`: what of the page is filmed, in its window.
+// `next(k)` brings the page to the k-th frame and gives how long that is shown, ms; null where there is none. `place`: what of the page is filmed, in its window.
 async function shootFilm(browser, file, place, next) {
   const frames = [], page = await browser.newPage();
-  const clip = await place.boundingBox();
+  const { width, height } = await place.boundingBox();
   let size;
   for (let k = 0; k < film.frames; ++k) {
-    await next(k);
-    const { bytes, ...drawn } = await drawnSmaller(page, await place.page().screenshot({ clip, animations: 'disabled' }), film.frame);
-    frames.push({ webp: bytes, duration: film.every });
+    const duration = await next(k);
+    if (duration === null) break;
+    const { x, y } = await place.boundingBox();  // doubts that come stand above it
+    const { bytes, ...drawn } = await drawnSmaller(page, await place.page().screenshot({ clip: { x, y, width, height }, animations: 'disabled' }), film.frame);
+    frames.push({ webp: bytes, duration });
     size = drawn;
   }
   await page.close();
@@ -130,25 +132,38 @@ async function shootReplayFilm(browser, folder) {
       await page.clock.fastForward(film.every);
       await page.waitForFunction(() => document.querySelector('#replay-canvas').ariaLabel.includes(` at ${document.querySelector('#replay-time').textContent}. `));
       await page.mouse.move(x + 40 + turnOfFrame * k, y + height / 2);
+      return film.every;
     });
     await page.mouse.up();
   });
 }
 
+// Plays on until a time of the run, s, or its end, and rests: in the page, so that it does not run away from a slow machine. Gives the time it came to.
+const playUntil = (until) => new Promise((came) => {
+  const place = document.querySelector('.bench'), canvas = place.querySelector('canvas'), toggle = place.querySelector('.controls .primary');
+  const time = () => Number(canvas.dataset.time);
+  const seen = new MutationObserver(() => {
+    if (time() < until && place.dataset.status !== 'ended') return;
+    seen.disconnect();
+    if (place.dataset.status === 'playing') toggle.click();
+    came(time());
+  });
+  seen.observe(place, { attributes: true, subtree: true, attributeFilter: ['data-time', 'data-status'] });
+  if (['ready', 'paused'].includes(place.dataset.status)) toggle.click();
+});
+
 // The simulator's clock is its own: for each frame it goes on for a while and rests again, which the transport's words need not say.
 async function shootStudioFilm(browser, folder) {
-  await withPage(browser, path.join(folder, 'studio', 'studio.html'), {}, async (page) => {
-    const place = bench(page, 'A');
+  await withPage(browser, path.join(folder, 'studio', 'studio.html'), { reducedMotion: 'reduce' }, async (page) => {
     await page.addStyleTag({ content: '.speed { visibility: hidden; }' });
-    const press = (name) => place.getByRole('button', { name, exact: true }).click();
-    await page.getByRole('radio', { name: 'Draft' }).check();
-    await page.waitForFunction(() => Number(document.querySelector('.bench canvas').dataset.time) > 0);
-    await press('Pause');
-    await shootFilm(browser, path.join(folder, 'studio.webp'), place.locator('.workbench'), async (k) => {
-      await press('Play');
-      await page.waitForFunction((time) => Number(document.querySelector('.bench canvas').dataset.time) >= time, ((k + 1) * film.every) / 1000);
-      await press('Pause');
+    await page.locator('.bench[data-status="ready"]').waitFor();
+    let time = 0;
+    await shootFilm(browser, path.join(folder, 'studio.webp'), page.locator('.workbench'), async () => {
+      if ((await page.locator('.bench').getAttribute('data-status')) === 'ended') return null;
+      const before = time;
+      time = await page.evaluate(playUntil, before + film.every / 1000);
       await settled(page);
+      return 1000 * (time - before);
     });
   });
 }
