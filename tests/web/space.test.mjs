@@ -2,47 +2,25 @@
 import assert from 'node:assert/strict';
 import test, { after, describe } from 'node:test';
 import * as in_ from './browser.mjs';
+import { lamp } from '../../web/report/lamp.mjs';
 import { encodeRecording } from './encoder.mjs';
+import { betweenFrames, countGl, madeUpCrowd, playedPictures } from './made_up_crowd.mjs';
 import { fileOf } from './made_up_pages.mjs';
 import { madeUpRun } from './made_up_run.mjs';
 
 const small = { viewport: { width: 500, height: 600 } };
 
-// A run of so many balls, no two frames alike, without forces.
-function madeUpCrowd(count) {
-  const made = madeUpRun('three_dimensional');
-  const unit = 1e-5, across = 20, radius = 1e-3;
-  const place = (id) => [id % across, Math.floor(id / across) % across, Math.floor(id / across ** 2)].map((step) => (2 * step + 1) * radius);
-  const frames = Array.from({ length: 4 }, (_, frame) => ({
-    time: frame / 40, poses: [[0, 0, 0, 0], [0, 0, 0, 0]],
-    grains: Array.from({ length: count }, (__, id) => {
-      const [z, y, x] = place(id);
-      return { id, lot: 0, radius, start: [x, y, z], values: [x, y + 1e-4 * ((id + frame) % 3), z].map((value) => Math.round(value / unit)) };
-    }),
-  }));
-  return { data: made.data, recording: encodeRecording({ frames, version: 1, perBlock: 4, vessels: ['tray', 'hopper'], fields: ['x', 'y', 'z'], units: [unit, unit, unit] }) };
-}
+// Of a made-up crowd, whose tray stands beside a hopper: the lamp sees balls and the edges of both; the camera balls, both floors, the edges of both,
+// the rims of the holes and the glass of both.
+const bytesOfPlaces = 16, bytesOfColours = 4;
+const shadowDraws = 1 + 2, drawsOfPicture = 1 + 2 + 2 + 1 + 2;
 
-// Counts what is asked of WebGL: draw calls, and bytes that are uploaded.
-function countGl() {
-  window.asked = { draws: 0, bytes: 0 };
-  const watch = (name, note) => {
-    const own = WebGL2RenderingContext.prototype[name];
-    WebGL2RenderingContext.prototype[name] = function watched(...given) {
-      note(given);
-      return own.apply(this, given);
-    };
-  };
-  for (const name of ['drawArrays', 'drawElements', 'drawArraysInstanced', 'drawElementsInstanced']) watch(name, () => { ++window.asked.draws; });
-  watch('bufferData', ([, data]) => { window.asked.bytes += data.byteLength ?? data; });
-  watch('bufferSubData', ([, , data]) => { window.asked.bytes += data.byteLength; });
-}
-
-test('a frame of 12 000 balls is one draw of them, and a turned camera uploads nothing', async () => {
-  const balls = 12000, bytesOfBall = 16 + 4;
+test('a frame of 12 000 balls is two draws of them; a camera that turns uploads nothing, one that zooms draws no shadow anew', async () => {
+  const balls = 12000;
   const browser = await in_.startBrowser();
   const page = await in_.openPage(browser, fileOf(madeUpCrowd(balls)), { viewport: { width: 400, height: 400 }, first: countGl });
-  await page.locator('#replay-canvas').scrollIntoViewIfNeeded();
+  const canvas = page.locator('#replay-canvas');
+  await canvas.scrollIntoViewIfNeeded();
   const askedOf = async (act) => {
     const before = await in_.pictureOf(page);
     await page.evaluate(() => { window.asked = { draws: 0, bytes: 0 }; });
@@ -50,24 +28,65 @@ test('a frame of 12 000 balls is one draw of them, and a turned camera uploads n
     await in_.nextPicture(page, before);
     return page.evaluate(() => window.asked);
   };
-  const scriptOf = async (act) => {
-    const times = [];
-    for (let k = 0; k < 7; ++k) {
-      await act(k);
-      times.push(Number(await page.getAttribute('#replay-canvas', 'data-script-ms')));
-    }
-    times.sort((a, b) => a - b);
-    return `${times[0]} ms at least, ${times[3]} ms in the median`;
-  };
-  const ofFrames = await scriptOf((k) => in_.scrubTo(page, k % 4)), ofTurns = await scriptOf(() => page.locator('#replay-canvas').press('ArrowLeft'));
   await in_.scrubTo(page, 2);
-  const frame = await askedOf(() => in_.scrubTo(page, 3));
-  const turned = await askedOf(() => page.locator('#replay-canvas').press('ArrowUp'));
-  console.log(`script of a frame of ${balls} balls: ${ofFrames}; of a turn: ${ofTurns}; ${frame.draws} draws, ${frame.bytes} bytes`);
-  assert.ok(frame.draws < 20, `${frame.draws} draws`);
-  assert.equal(frame.bytes, balls * bytesOfBall);
-  assert.ok(turned.draws < 20, `${turned.draws} draws`);
-  assert.equal(turned.bytes, 0);
+  assert.deepEqual(await askedOf(() => in_.scrubTo(page, 3)), { draws: shadowDraws + drawsOfPicture, bytes: balls * (bytesOfPlaces + bytesOfColours) });
+  assert.deepEqual(await askedOf(() => canvas.press('ArrowUp')), { draws: shadowDraws + drawsOfPicture, bytes: 0 });
+  assert.deepEqual(await askedOf(() => canvas.press('+')), { draws: drawsOfPicture, bytes: 0 });
+  assert.deepEqual(page.complaints, []);
+  await browser.close();
+});
+
+test('while it plays each picture between frames uploads the places of its balls, and no colours', async () => {
+  const balls = 400;
+  const browser = await in_.startBrowser();
+  const page = await in_.openPage(browser, fileOf(madeUpCrowd(balls, { frames: 3, step: 30 })), { viewport: { width: 400, height: 400 }, first: countGl });
+  const pictures = await page.evaluate(playedPictures, 12);
+  await browser.close();
+  for (const { draws, bytes } of betweenFrames(pictures)) assert.deepEqual({ draws, bytes }, { draws: shadowDraws + drawsOfPicture, bytes: balls * bytesOfPlaces });
+});
+
+// One ball over the floor of the made-up tray; millimetres.
+function madeUpBall({ x, y, z, radius }) {
+  const { data } = madeUpRun('three_dimensional');
+  const unit = 1e-5, values = [x, y, z].map((value) => Math.round(value / 1000 / unit));
+  const frames = [0, 1].map((time) => ({ time, poses: [[0, 0, 0, 0], [0, 0, 0, 0]], grains: [{ id: 0, lot: 0, radius: radius / 1000, start: [x, y, z], values }] }));
+  const recording = encodeRecording({ frames, version: 1, perBlock: 2, vessels: ['tray', 'hopper'], fields: ['x', 'y', 'z'], units: [unit, unit, unit] });
+  return { data: { ...data, faces: { tray: data.faces.tray }, vessels: data.vessels.slice(0, 1) }, recording };
+}
+
+// How light the floor of the made-up tray is at places along and across, mm, seen from above: 0 to 1.
+function lightness(page, places) {
+  return page.evaluate((all) => {
+    const under = document.querySelector('.stage canvas');
+    const picture = Object.assign(document.createElement('canvas'), { width: under.width, height: under.height });
+    const context = picture.getContext('2d', { willReadFrequently: true });
+    context.drawImage(under, 0, 0);
+    const ratio = under.width / under.clientWidth, margin = 16, length = 160, depth = 50;
+    const scale = Math.min((under.clientWidth - 2 * margin) / length, (under.clientHeight - 2 * margin) / depth);
+    return all.map(([x, z]) => {
+      const [px, py] = [under.clientWidth / 2 + scale * (x - length / 2), under.clientHeight / 2 - scale * (z - depth / 2)];
+      return context.getImageData(px * ratio, py * ratio, 1, 1).data.slice(0, 3).reduce((sum, value) => sum + value / 3 / 255, 0);
+    });
+  }, places);
+}
+
+test('a ball has a shadow on the floor, on the far side of the lamp, and none once it is cut away', async () => {
+  const ball = { x: 85, y: 20, z: 35, radius: 4 };
+  const browser = await in_.startBrowser();
+  const page = await in_.openPage(browser, fileOf(madeUpBall(ball)), { viewport: { width: 800, height: 700 } });
+  const before = await in_.pictureOf(page);
+  await page.getByRole('button', { name: 'Above' }).click();
+  const above = await in_.nextPicture(page, before);
+  // From above the lamp stands at the left and behind: as seen it is `lamp`, across, along the picture's height, and toward.
+  const shadow = [ball.x - (lamp[0] * ball.y) / lamp[2], ball.z - (lamp[1] * ball.y) / lamp[2]];
+  const beside = [2 * ball.x - shadow[0], shadow[1]];
+  const [dark, light] = await lightness(page, [shadow, beside]);
+  assert.ok(dark < 0.8 * light && dark > 0.4 * light, `${dark} in the shadow, ${light} beside it`);
+  await page.getByRole('combobox', { name: 'Cut' }).selectOption('from the top');
+  await page.getByRole('slider', { name: 'How much is cut away, percent' }).fill('60');
+  await in_.nextPicture(page, above);
+  const [after_, there] = await lightness(page, [shadow, beside]);
+  assert.ok(Math.abs(after_ - there) < 0.02, `${after_} where the shadow was, ${there} beside it`);
   assert.deepEqual(page.complaints, []);
   await browser.close();
 });

@@ -7,6 +7,7 @@ import { Camera } from '../../web/report/camera.mjs';
 import { composed, inverse, placed } from '../../web/report/geometry.mjs';
 import { poseAt } from '../../web/report/path.mjs';
 import { Player } from '../../web/report/player.mjs';
+import { lamp, seenByLamp } from '../../web/report/lamp.mjs';
 import { wallsOf } from '../../web/report/walls.mjs';
 
 const near = (a, b, slack = 1e-9) => a.forEach((value, k) => assert.ok(Math.abs(value - b[k]) <= slack, `${a} is not ${b}`));
@@ -60,6 +61,22 @@ test('it moves by as many pixels as the pointer', () => {
   const before = one.project(100, 30, 30);
   one.pan(12, -7);
   near(one.project(100, 30, 30).slice(0, 2), [before[0] + 12, before[1] - 7], 1e-6);
+});
+
+test('the lamp sees all that there is, along three axes at right angles, from where it stands as seen', () => {
+  const one = camera();
+  for (const [yaw, pitch] of [[0, 0], [0.7, 0.4], [2, -1.1], [0, Math.PI / 2]]) {
+    Object.assign(one, { yaw, pitch });
+    one.turn();
+    const { right, up, toward, target, span } = seenByLamp(one);
+    const dot = (a, b) => a.reduce((sum, value, axis) => sum + value * b[axis], 0);
+    near([one.right, one.up, one.toward].map((axis) => dot(axis, toward)), lamp);
+    near([dot(right, up), dot(right, toward), dot(up, toward), dot(right, right), dot(up, up)], [0, 0, 0, 1, 1]);
+    for (const corner of [0, 200].flatMap((x) => [-20, 80].flatMap((y) => [0, 60].map((z) => [x, y, z])))) {
+      const from = corner.map((value, axis) => value - target[axis]);
+      [right, up, toward].forEach((axis, k) => assert.ok(Math.abs(dot(axis, from)) < span[k], `${corner} is outside`));
+    }
+  }
 });
 
 test('a pose and its inverse undo each other', () => {
