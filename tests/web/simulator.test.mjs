@@ -62,12 +62,13 @@ async function loaded(clock = () => 0) {
   core._initialize();
   const memory = () => new Uint8Array(core.memory.buffer);
   const answer = (address) => JSON.parse(new TextDecoder().decode(memory().subarray(address, memory().indexOf(0, address))));
-  const open = (text) => {
+  const given = (text) => {
     const packed = new TextEncoder().encode(`${text}\0`), address = core.malloc(packed.length);
     memory().set(packed, address);
-    return answer(core.open_scene(address, 1));
+    return address;
   };
-  return { core, open, answer };
+  const open = (text) => answer(core.open_scene(given(text), 1)), change = (scene) => answer(core.change_scene(given(JSON.stringify(scene))));
+  return { core, open, change, answer };
 }
 
 test('a slice ends in time, whatever the clock says', { skip: notNative }, async () => {
@@ -94,6 +95,28 @@ test('rates of a run that goes on are of the time so far', { skip: notNative }, 
   while (!core.advance(1, 1e9));
   const whole = answer(core.outcome()).window_s;  // two periods of 9 Hz
   assert.ok(Math.abs(whole[0] - (0.4 - 2 / 9)) < 1e-9 && whole[1] === 0.4, `${whole}`);
+});
+
+test('shake and holes change while it runs, and counts begin anew', { skip: notNative }, async () => {
+  const scene = { ...shortScene('seeders/wheat-tray.toml').scene, run: { duration_s: 0.5, measure_from_s: 0.1, count_below_m: 0.02, start: 'at-rest' } };
+  const { core, open, change, answer } = await loaded();
+  open(JSON.stringify(scene));
+  core.advance(0.3, 1e9);
+  const { grains, counted } = answer(core.state_now());
+  assert.ok(counted.some((count) => count > 0));
+  const faster = structuredClone(scene);
+  faster.tray.motion.frequency_hz *= 1.2;
+  for (const hole of faster.tray.holes) hole.width_m *= 1.3;
+  assert.equal(change({ ...scene, lots: scene.lots.map((lot) => ({ ...lot, diameter_m: 1.1 * lot.diameter_m })) }).restarts, 'seeds');
+  const { restarts, state } = change(faster);
+  assert.deepEqual([restarts, state.waiting, state.changes], ['', 'motion', 0]);
+  core.advance(0.4, 1e9);
+  const now = answer(core.state_now()), opened = answer(core.opened_now());
+  assert.deepEqual([now.waiting, now.changes], ['', 2]);  // the shake at once, the holes at the end of a stroke
+  assert.ok(Math.abs(now.time_s - 0.4) < 1e-3 && opened.since_s > 0.3 && opened.since_s < 0.36, `${now.time_s} ${opened.since_s}`);
+  assert.ok(Math.abs(opened.duration_s - opened.since_s - 0.5) < 1e-9);
+  assert.ok(now.grains > 0.5 * grains && now.counted.reduce((sum, count) => sum + count) < counted.reduce((sum, count) => sum + count));
+  assert.equal(opened.vessels.find(({ name }) => name === 'tray').holes[0].half_x_mm, 500 * faster.tray.holes[0].width_m);
 });
 
 test('a scene that cannot be read or is in space is refused with a sentence', { skip: notNative }, async () => {

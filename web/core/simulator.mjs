@@ -63,6 +63,7 @@ class Simulator {
     }
     if (data.run !== this.#run) return; // of a scene that is no longer open
     if (data.kind === 'failed') this.#listeners?.onFail?.(new Error(data.message));
+    else if (data.kind === 'changed') this.#listeners?.onChange?.(data.prepared);
     else this.#listeners?.onFrame?.(data.frame);
     if (data.kind === 'ended') this.#listeners?.onEnd?.(figuresOf(data.outcome));
   }
@@ -83,6 +84,14 @@ class Simulator {
   open(text, seed = 1) {
     ++this.#run;
     return this.#ask({ kind: 'open', text, seed });
+  }
+
+  /**
+   * Takes the run that goes on to another scene. Promises what keeps it from that, one of the core's obstacles; "" where it goes on, now
+   * or while it plays: then `onChange` has what is prepared from there on.
+   */
+  change(text) {
+    return this.#ask({ kind: 'change', text });
   }
 
   /** `pace`: simulated seconds a second at most; null: as fast as it can. */

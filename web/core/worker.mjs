@@ -6,6 +6,7 @@ const fieldsOfGrain = 6;
 
 let core = null; // the module's exports
 let limit = Infinity; // s of simulated time, which no run passes
+let changes = 0; // of the run that is open, as far as they have been told
 let running = null; // { id, pace, timer, since: [[wall, simulated], ..], shown }
 
 function memoryView() {
@@ -37,12 +38,13 @@ function parsed(address) {
   return value;
 }
 
-function openScene(text, seed) {
+// What `call(address)` answers of a text.
+function given(text, call) {
   const bytes = new TextEncoder().encode(`${text}\0`);
   const address = core.malloc(bytes.length);
   new Uint8Array(core.memory.buffer).set(bytes, address);
   try {
-    return parsed(core.open_scene(address, seed));
+    return parsed(call(address));
   } finally {
     core.free(address);
   }
@@ -61,8 +63,14 @@ function frame(state) {
   const [x, y, angle, radius, speed, lot] = Array.from({ length: fieldsOfGrain }, (_, k) => values.slice(k * n, (k + 1) * n));
   return {
     time_s: state.time_s, x, y, angle, radius, speed, lot: Uint16Array.from(lot), vessels: state.vessels, counted: state.counted, spilled: state.spilled,
-    speed_ratio: speedRatio(),
+    waiting: state.waiting, speed_ratio: speedRatio(),
   };
+}
+
+// What is prepared, with the frame of its beginning.
+function withFrame(opened) {
+  changes = opened.state.changes;
+  return { ...opened, frame: frame(opened.state) };
 }
 
 function buffersOf({ x, y, angle, radius, speed, lot }) {
@@ -89,6 +97,7 @@ function step(run) {
   run.since.push([after, state.time_s]);
   while (run.since.length > 2 && after - run.since[0][0] > 1000) run.since.shift();
   run.pace.forgive(after, state.time_s);
+  if (state.changes !== changes) postMessage({ kind: 'changed', run: run.id, prepared: withFrame(parsed(core.opened_now())) });
   if (ended || after - run.shown >= frameEvery) {
     run.shown = after;
     const shown = frame(state);
@@ -112,9 +121,9 @@ const answers = {
   load: ({ bytes }) => load(bytes),
   open({ text, seed }) {
     pause();
-    const opened = openScene(text, seed);
-    return { ...opened, frame: frame(opened.state) };
+    return withFrame(given(text, (address) => core.open_scene(address, seed)));
   },
+  change: ({ text }) => given(text, core.change_scene).restarts,
   outcome: () => parsed(core.outcome()),
 };
 
