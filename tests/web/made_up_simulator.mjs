@@ -37,9 +37,18 @@ class Simulator {
 
   async open(text) {
     this.pause();
-    const scene = this.scene = JSON.parse(text);
+    this.next = null;
+    const scene = this.asked = JSON.parse(text);
     if (scene.tray.holes.some((hole) => hole.width_m > 0.06)) throw new Error('tray.holes.width: 60 mm is as wide as this made-up simulator goes');
     this.time = 0;
+    return this.begin(scene, 0);
+  }
+
+  // From a time (s) on; seeds come 0.1 s after the start.
+  begin(scene, since) {
+    const { duration_s: duration, measure_from_s: from } = scene.run;
+    this.scene = { ...scene, run: { duration_s: since + duration, measure_from_s: since + from } };
+    Object.assign(this, { since, from: since || 0.1, blocked: null });
     const motion = scene.tray.motion;
     this.speed = motion?.kind === 'harmonic' ? 2 * Math.PI * motion.frequency_hz * motion.amplitude_m : 0.3;
     this.rates = scene.tray.holes.map((hole) => slope * hole.width_m * this.speed * (0.7 + 0.3 * Math.cos(40 * hole.centre_m)));
@@ -47,14 +56,40 @@ class Simulator {
     this.seeds = [scene.tray, scene.hopper].flatMap((vessel) => rows(vessel, radius, scene.lots.length));
     const vessels = [pageVessel('tray', scene.tray), ...(scene.hopper ? [pageVessel('hopper', scene.hopper)] : [])];
     return {
-      grains: this.seeds.length, duration_s: scene.run.duration_s, measure_from_s: scene.run.measure_from_s, time_step_s: 1e-5, steps: Math.round(scene.run.duration_s / 1e-5),
+      grains: this.seeds.length, duration_s: since + duration, since_s: since, measure_from_s: since + from, time_step_s: 1e-5, steps: Math.round((since + duration) / 1e-5),
       remarks: [...(scene.made_up_remarks ?? []), ...(scene.tray.holes.some((hole) => hole.width_m < 0.004) ? [{ serious: true, text: 'tray.holes.width: seeds cannot pass' }] : [])],
       lots: scene.lots.map((lot) => ({ name: lot.name, diameter_mm: lot.diameter_m * 1000 })), vessels, holes: scene.tray.holes.length, frame: this.frame(0),
     };
   }
 
+  /** At once where it plays; a hole that moves by more than 60 mm finds no room. */
+  async change(text) {
+    const { asked: before } = this, scene = JSON.parse(text);
+    const differs = (of) => JSON.stringify(of(scene)) !== JSON.stringify(of(before));
+    if (differs(({ lots }) => lots)) return 'seeds';
+    if (differs(({ numerics }) => numerics)) return 'accuracy';
+    if (differs(({ tray }) => tray.holes.length)) return 'holes';
+    if (scene.tray.motion?.kind !== 'harmonic') return 'motion';
+    if (scene.tray.holes.some((hole) => hole.width_m > 0.06)) return 'plan';
+    if (scene.tray.holes.some((hole, k) => Math.abs(hole.centre_m - before.tray.holes[k].centre_m) > 0.06)) this.blocked = this.time + 0.3;
+    else this.next = scene;
+    return '';
+  }
+
+  takeUp(onChange) {
+    if (!this.next) return;
+    this.asked = this.next;
+    this.next = null;
+    onChange(this.begin(this.asked, this.time));
+  }
+
+  waiting() {
+    if (this.blocked === null) return '';
+    return this.time < this.blocked ? 'holes' : 'given up';
+  }
+
   counts(time) {
-    return this.rates.map((rate) => Math.floor(rate * Math.max(0, time - 0.1)));
+    return this.rates.map((rate) => Math.floor(rate * Math.max(0, time - this.from)));
   }
 
   falling(time) {
@@ -62,7 +97,7 @@ class Simulator {
     return this.rates.flatMap((rate, k) => {
       const last = this.counts(time)[k];
       return Array.from({ length: Math.min(last, 60) }, (_, i) => {
-        const since = time - 0.1 - (last - i) / rate;
+        const since = time - this.from - (last - i) / rate;
         const wobble = Math.sin(12.9898 * (last - i) + k);
         return { x: tray.left_m + tray.holes[k].centre_m + 0.3 * wobble * tray.holes[k].width_m, y: -0.5 * gravity * since * since, lot: (last - i) % lots.length, radius: lots[0].diameter_m / 2 };
       }).filter((seed) => seed.y > -fall);
@@ -77,16 +112,17 @@ class Simulator {
     const of = (key) => Float32Array.from(seeds, (seed) => seed[key]);
     return {
       time_s: time, x: of('x'), y: of('y'), angle: new Float32Array(seeds.length), lot: Uint16Array.from(seeds, (seed) => seed.lot), radius: of('radius'),
-      speed: Float32Array.from(seeds, (_, k) => this.speed * Math.abs(Math.sin(k + 20 * time))), counted: this.counts(time), spilled: 0, speed_ratio: speedRatio,
+      speed: Float32Array.from(seeds, (_, k) => this.speed * Math.abs(Math.sin(k + 20 * time))), counted: this.counts(time), spilled: 0, waiting: this.waiting(), speed_ratio: speedRatio,
       vessels: [{ x_m: shift, y_m: 0, angle_rad: 0 }, { x_m: 0, y_m: 0, angle_rad: 0 }],
     };
   }
 
-  play({ pace, onFrame, onEnd }) {
+  play({ pace, onFrame, onChange, onEnd }) {
     this.pause();
     const slow = this.scene.numerics.accuracy === 'design' ? 4 : 1;
     const step = (pace === null ? 0.5 : pace / framesPerSecond) / slow;
     this.timer = setInterval(() => {
+      this.takeUp(onChange);
       this.time = Math.max(this.time, Math.min(this.scene.run.duration_s, this.time + step, this.until));
       onFrame(this.frame(pace ?? 15));
       if (this.time < this.scene.run.duration_s) return;

@@ -64,7 +64,7 @@ test('it opens playing, counts at the holes, and says plainly what it is', () =>
   const place = bench(page);
   await page.waitForFunction(() => JSON.parse(document.querySelector('canvas').dataset.counts ?? '[0]')[0] > 3);
   assert.match(await page.locator('#head').textContent(), /A 2D slice one seed thick: use it to compare layouts; it is no sowing rate\./);
-  assert.match(await page.locator('#head').textContent(), /a change starts the run again/);
+  assert.match(await page.locator('#head').textContent(), /holes and shake change while it runs/);
   assert.ok(await place.getByRole('radio', { name: 'Draft' }).isChecked());
   await place.getByText('In real time').waitFor();
   await place.getByText(/^Measured from 1 to/).waitFor();
@@ -198,6 +198,60 @@ test('a hole is dragged, and the simulation starts again with it', () => withStu
   assert.notEqual(await place.locator('canvas').getAttribute('data-counts'), before);
 }));
 
+test('holes and shake change while it runs: clock and picture go on, rates begin anew', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  await page.waitForFunction(() => Number(document.querySelector('canvas').dataset.time) > 0.6);
+  const seen = await page.evaluateHandle(() => {
+    const canvas = document.querySelector('canvas'), times = [];
+    new MutationObserver(() => times.push(Number(canvas.dataset.time))).observe(canvas, { attributeFilter: ['data-time'] });
+    return times;
+  });
+  const frequency = place.getByRole('spinbutton', { name: 'Frequency in Hz' });
+  await frequency.fill('12');
+  await frequency.press('Enter');
+  const words = place.getByText(/^Changed at /);
+  await words.waitFor();
+  const [since, from] = /^Changed at ([0-9.]+) s\. Measuring begins at ([0-9.]+) s\.$/.exec(await words.textContent()).slice(1).map(Number);
+  assert.ok(since > 0.6 && Math.abs(from - since - 1) < 0.02, `${since} ${from}`);
+  await page.waitForFunction((then) => Number(document.querySelector('canvas').dataset.time) > then, since + 0.2);
+  await handle(place, 2).press('Shift+ArrowRight');
+  await page.waitForFunction((then) => Number(/^Changed at ([0-9.]+) s/.exec(document.querySelector('.panel-head .hint').textContent)?.[1]) > then, since + 0.1);
+  await place.getByText(/^Measured from/).waitFor({ state: 'detached' });
+  const times = await seen.jsonValue();
+  assert.ok(times.every((time, k) => k === 0 || time >= times[k - 1]), JSON.stringify(times));
+  assert.ok(!(await place.getByText(/Starts again/).count()));
+}));
+
+// However slow the machine: no time that is shown is missed. Call what is given to wait until a time is less than one before.
+async function restarts(page) {
+  await page.evaluate(() => {
+    const canvas = document.querySelector('canvas');
+    let last = 0;
+    window.restarts = 0;
+    new MutationObserver(() => {
+      if (Number(canvas.dataset.time) < last) ++window.restarts;
+      last = Number(canvas.dataset.time);
+    }).observe(canvas, { attributeFilter: ['data-time'] });
+  });
+  let waited = 0;
+  return () => page.waitForFunction((most) => window.restarts > most, waited++);
+}
+
+test('where a run cannot go on it says that it starts again, and why', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  await page.waitForFunction(() => Number(document.querySelector('canvas').dataset.time) > 0.5);
+  const startsAgain = await restarts(page);
+  await place.getByRole('button', { name: 'Remove hole 5' }).click();
+  const says = (words) => place.locator('.speed', { hasText: words }).waitFor();
+  await says('Starts again: more or fewer holes');
+  await startsAgain();
+  await handle(place, 4).press('End');  // further than it finds room
+  await says('Waits: seeds are in the way');
+  await says('Starts again: seeds stay in the way of a hole');
+  await startsAgain();
+  await says('In real time');  // once that has been said for long enough
+}));
+
 test('a press on a handle that does not move it changes nothing', () => withStudio({}, async (page) => {
   const place = bench(page);
   await countsAtTheEnd(place);
@@ -326,6 +380,7 @@ test('two layouts are compared, and a link brings both back with their counts', 
   assert.equal(await valueText(b, 1), 'hole 1 at 60 mm, 12 mm wide');
   await handle(b, 3).press('+');
   await b.getByRole('combobox', { name: 'Crop' }).selectOption('Soybean');
+  await a.getByRole('button', { name: 'Restart' }).click();
   const counts = [await countsAtTheEnd(a), await countsAtTheEnd(b)];
   assert.notEqual(counts[0], counts[1]);
   await page.getByText(/^B lets out .* as A|than A, .* its holes differ/).waitFor();
@@ -417,6 +472,7 @@ test('sent as one file, it opens by itself with what was on the page, to the sam
   const text = readFileSync(sent, 'utf8');
   assert.equal(/<script>[\s\S]*<\/script>/.exec(text)[0], /<script>[\s\S]*<\/script>/.exec(template)[0]);  // which its policy lets run
   assert.match(text, /^<!doctype html>\n<html lang="en"><head>/);  // light or dark is for them to choose
+  await bench(page).getByRole('button', { name: 'Restart' }).click();
   const counts = await countsAtTheEnd(bench(page));
   const theirs = await in_.openPage(browser, sent);
   assert.deepEqual([await valueText(bench(theirs), 2), await valueText(bench(theirs, 'B'), 1)], ['hole 2 at 170 mm, 12 mm wide', 'hole 1 at 70 mm, 12.5 mm wide']);
@@ -474,6 +530,10 @@ test('two layouts run in step, and start and rest together', () => withStudio({ 
   await status(a, 'playing');
   await page.waitForFunction(() => [...document.querySelectorAll('canvas')].every((canvas) => Number(canvas.dataset.time) > 0.5));
   await handle(a, 2).press('ArrowRight');
+  await a.getByText(/^Changed at /).waitFor();
+  await page.waitForFunction(() => [...document.querySelectorAll('canvas')].every((canvas) => Number(canvas.dataset.time) > 0.5));
+  assert.equal(await b.getByText(/^Changed at /).count(), 0);
+  await handle(a, 5).press('Delete');
   await page.waitForFunction(() => [...document.querySelectorAll('canvas')].every((canvas) => Number(canvas.dataset.time) < 0.4));
   await page.getByRole('button', { name: 'Remove layout B' }).click();
   await status(a, 'ended');

@@ -80,6 +80,14 @@ describe('the rate of the last shakes', () => {
     const { shakes, from_s, until_s } = told(new RollingRate(null), 3);
     assert.deepEqual([shakes, from_s, until_s], [null, 2, 3]);
   });
+  test('after a change it begins anew, at the change', () => {
+    const rolling = new RollingRate(0.2, 2);
+    rolling.take({ time_s: 2, counted: [0] });
+    rolling.take({ time_s: 2.19, counted: [19] });
+    assert.equal(rolling.now(), null);
+    rolling.take({ time_s: 2.2, counted: [20] });
+    assert.deepEqual([rolling.now().from_s, Math.round(rolling.now().all.seeds_per_s)], [2, 100]);
+  });
   // Exact limits of a Poisson mean: of 0 seeds 0 to 3.689, of 4 1.090 to 10.242, of 100 81.36 to 121.63 (Garwood 1936).
   test('its interval is that of a count', () => {
     for (const [count, low, high] of [[0, 0, 3.689], [4, 1.09, 10.242], [100, 81.36, 121.63]]) {
@@ -452,6 +460,25 @@ describe('the course', () => {
     const { outcome } = course.state;
     await asked;
     assert.deepEqual([course.state.status, course.state.outcome], ['changed', outcome]);
+  });
+
+  test('a run goes on with a change, or says what keeps it from that', async () => {
+    const { course } = await started();
+    const seen = [];
+    await new Promise((ended) => {
+      course.changed = (state) => {
+        if (state.prepared && state.prepared !== seen[seen.length - 1]) seen.push(state.prepared);
+        if (state.status === 'ended') ended();
+      };
+      course.open(sceneOf(fresh, data.crops), 10).then(async () => {
+        assert.equal(await course.change(sceneOf(layouts.spreadHoles(fresh, 3), data.crops)), 'holes');
+        assert.equal(await course.change(sceneOf(layouts.withMotion(fresh, { frequency_hz: 12 }), data.crops)), '');
+      });
+    });
+    const [first, next] = seen;
+    assert.deepEqual([seen.length, first.since_s, next.duration_s - next.since_s], [2, 0, first.duration_s]);
+    assert.ok(course.state.frame.time_s > first.duration_s - 1e-9);
+    assert.equal(await course.change(sceneOf(fresh, data.crops)), null);  // it has ended
   });
 
   test('a simulator that fails is replaced when the next scene is opened', async () => {

@@ -7,6 +7,7 @@ import { Course } from './course.mjs';
 import { holeWords } from './handles.mjs';
 import { HoleControls } from './hole_controls.mjs';
 import { addHole, moveHole, removeHole, startOf, widenHole } from './layout.mjs';
+import { startsAgain } from './obstacles.mjs';
 import { MotionControls } from './motion_controls.mjs';
 import { measured, OutflowPanel } from './outflow_panel.mjs';
 import { saveText } from '../report/save.mjs';
@@ -16,7 +17,13 @@ import { asFastAsItCan, realTime, Transport } from './transport.mjs';
 import { TrayView } from './tray_view.mjs';
 
 const settling = 250;  // ms after a gesture, before its layout is simulated
+const readable = 4000; // ms that it stays said why a run started again
 const still = matchMedia('(prefers-reduced-motion: reduce)');
+
+// Whether a hole that was to move has not, and will not.
+function hasNoRoom({ status, frame }) {
+  return status === 'playing' ? frame.waiting === 'given up' : status === 'ended' && Boolean(frame.waiting);
+}
 
 export class Bench {
   /** `name`: "A" or "B"; `told("layout")` is called when its layout has changed, `told("made")` when the gesture that changed it has ended, `told("state")` when its simulation has moved on.
@@ -68,17 +75,39 @@ export class Bench {
     this.course.open(sceneOf(this.layout, this.data.crops), this.pace);
   }
 
-  /** Takes another layout. It is simulated once the gesture that makes it has ended. */
+  /** Takes another layout. It is simulated once the gesture that makes it has ended: the run goes on with it, or starts again. */
   change(layout, ended = true) {
     const moved = layout !== this.layout, other = layout.seeder !== this.layout.seeder;
     this.layout = layout;
     if (moved) this.showLayout();
     clearTimeout(this.opening);
+    this.news = '';
     if (other) this.course.leaveSeeder();
-    else if (moved && this.course.state.status !== 'changed') this.course.leave();
-    if (ended) this.opening = setTimeout(() => this.restart(), settling);
+    else if (moved && !this.course.isUnderWay && this.course.state.status !== 'changed') this.course.leave();
+    if (ended && this.course.isUnderWay) this.goOn();
+    else if (ended) this.opening = setTimeout(() => this.restart(), settling);
     if (moved) this.told('layout');
     if (ended) this.told('made');
+  }
+
+  async goOn() {
+    const { layout } = this;
+    const obstacle = await this.course.change(sceneOf(layout, this.data.crops));
+    if (obstacle && layout === this.layout) this.startAgain(obstacle);
+  }
+
+  startAgain(obstacle) {
+    this.news = startsAgain(obstacle);
+    this.course.leave();
+    clearTimeout(this.opening);
+    clearTimeout(this.silence);
+    this.opening = setTimeout(() => this.restart(), settling);
+    this.silence = setTimeout(() => this.hush(), readable);
+  }
+
+  hush() {
+    this.news = '';
+    this.transport.show(this.course.state);
   }
 
   showLayout() {
@@ -115,17 +144,18 @@ export class Bench {
       this.view.showHoles(this.layout);
     }
     if (state.frame && state.prepared === this.prepared) this.view.show(state.frame);
-    this.transport.show(state);
+    this.transport.show(state, this.news);
     this.outflow.show(state, this.scene);
     this.tellProblem(state.problem);
     if (state.status !== this.lastStatus) this.say(state);
     this.lastStatus = state.status;
     this.frame.dataset.status = state.status;
     this.told('state');
+    if (hasNoRoom(state)) this.startAgain('given up');
   }
 
   say({ status, frame }) {
-    if (status === 'changed') this.status.textContent = `Layout ${this.name} has changed; the simulation starts again.`;
+    if (status === 'changed') this.status.textContent = `Layout ${this.name} has changed. ${this.news || 'The simulation starts again'}.`;
     if (status === 'ended') this.status.textContent = `Layout ${this.name} has run to ${clock(frame.time_s)}.`;
   }
 
@@ -185,6 +215,7 @@ export class Bench {
 
   close() {
     clearTimeout(this.opening);
+    clearTimeout(this.silence);
     this.course.close();
     this.view.close();
     this.frame.remove();

@@ -65,6 +65,18 @@ export class Course {
     this.leave(nothing);
   }
 
+  /** Whether a run is under way, which may go on as another scene. */
+  get isUnderWay() {
+    return ['playing', 'paused'].includes(this.state.status);
+  }
+
+  /** Takes the run to another scene while it goes on. Promises what keeps it from that, "" where it goes on; null: it is no longer under way. */
+  async change(scene) {
+    const turn = this.opened;
+    const obstacle = await this.simulator.change(JSON.stringify(scene)).catch(() => 'plan');
+    return turn === this.opened && this.isUnderWay ? obstacle : null;
+  }
+
   /** `pace`: simulated seconds a second at most; null: as fast as it can. */
   play(pace) {
     if (!['ready', 'paused', 'playing'].includes(this.state.status)) return;
@@ -76,6 +88,7 @@ export class Course {
     this.simulator.play({
       pace,
       onFrame: current((frame) => this.tell({ frame })),
+      onChange: current((prepared) => this.tell({ prepared, frame: prepared.frame, outcome: null })),
       onEnd: current((outcome) => this.end({ status: 'ended', outcome })),
       onFail: current((error) => {
         this.drop();

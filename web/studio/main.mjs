@@ -46,7 +46,7 @@ class Studio {
       element('div', { class: 'topline' }, element('h1', {}, title), element('div', { class: 'actions' },
         this.undoButton, this.redoButton, this.resetButton, this.wanted.button, this.compareButton, this.share.button, this.sendButton, themeSwitch())),
       this.share.frame, this.wanted.frame,
-      element('p', { class: 'plain' }, element('span', { class: 'roomy' }, 'Every seed is simulated here, in this page; a change starts the run again. '), element('b', {}, plainWords), this.said), this.notice,
+      element('p', { class: 'plain' }, element('span', { class: 'roomy' }, 'Every seed is simulated here, in this page; holes and shake change while it runs. '), element('b', {}, plainWords), this.said), this.notice,
     ];
   }
 

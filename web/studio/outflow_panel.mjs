@@ -44,9 +44,10 @@ function cvText({ cv_percent: cv }) {
 }
 
 function windowWords(state) {
-  const from = state.prepared.measure_from_s, until = measured(state)?.end_time_s;
-  if (until) return `Measured from ${number(from)} to ${number(until)} s.`;
-  return state.frame.time_s > from ? 'Measuring has begun.' : `Measuring begins at ${number(from)} s.`;
+  const { measure_from_s: from, since_s: since } = state.prepared, until = measured(state)?.end_time_s;
+  const changed = since > 0 ? `Changed at ${number(since)} s. ` : '';
+  if (until) return `${changed}Measured from ${number(from)} to ${number(until)} s.`;
+  return changed + (state.frame.time_s > from ? 'Measuring has begun.' : `Measuring begins at ${number(from)} s.`);
 }
 
 // s of a shake; null of a tray that does not shake to and fro.
@@ -84,7 +85,7 @@ export class OutflowPanel {
     this.frame.classList.toggle('stale', ['changed', 'opening'].includes(status));
     this.window.textContent = prepared ? windowWords(state) : '';
     Object.assign(this, { state, scene });
-    if (prepared !== this.prepared) this.rolling = prepared && new RollingRate(periodOf(scene.tray.motion));
+    if (prepared !== this.prepared) this.rolling = prepared && new RollingRate(periodOf(scene.tray.motion), prepared.since_s);
     if (prepared) this.rolling.take(frame);
     const now = performance.now();
     const news = prepared && status !== this.status || now - (this.filled ?? 0) >= newsEvery;

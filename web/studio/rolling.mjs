@@ -19,10 +19,10 @@ function rate(count, seconds) {
 }
 
 export class RollingRate {
-  /** `period`: s of a shake; null of a tray that does not shake to and fro. */
-  constructor(period) {
-    this.period = period;
-    this.past = [];  // { time_s, counted }, from the run's start
+  /** `period`: s of a shake; null of a tray that does not shake to and fro. `since`: s, when counting began. */
+  constructor(period, since = 0) {
+    Object.assign(this, { period, since });
+    this.past = [];  // { time_s, counted }, from then on
   }
 
   /** Takes the counts at the holes of a moment, `counted`, which is later than those before. */
@@ -34,7 +34,7 @@ export class RollingRate {
     while (past.length > 2 && past[1].time_s <= time_s - reach - 1e-9) past.shift();
   }
 
-  // How long the window should be at a time, s; 0 before the first shake is over.
+  // How long the window should be so long (s) after counting began, s; 0 before the first shake is over.
   wanted(time) {
     if (this.period === null) return time < shortest ? 0 : Math.min(time, longest);
     const most = Math.max(1, Math.floor(longest / this.period + 1e-9));
@@ -45,7 +45,7 @@ export class RollingRate {
   now() {
     const { past, period } = this;
     const last = past[past.length - 1];
-    const wanted = last ? this.wanted(last.time_s) : 0;
+    const wanted = last ? this.wanted(last.time_s - this.since) : 0;
     if (wanted === 0) return null;
     const first = past.reduce((best, one) => (Math.abs(last.time_s - wanted - one.time_s) < Math.abs(last.time_s - wanted - best.time_s) ? one : best));
     const seconds = last.time_s - first.time_s;

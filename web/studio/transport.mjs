@@ -14,8 +14,10 @@ function speedWords({ speed_ratio: ratio }) {
 
 const words = {
   opening: () => 'Preparing', ready: () => 'At the start', paused: () => 'Paused', ended: () => 'At its end', failed: () => 'Not running',
-  changed: () => 'Changed: starts again', playing: ({ frame }) => speedWords(frame),
+  changed: () => 'Changed: starts again', playing: ({ frame }) => waits[frame.waiting] ?? speedWords(frame),
 };
+
+const waits = { motion: 'Waits for the shake before', holes: 'Waits: seeds are in the way' };
 
 export class Transport {
   /** `acts`: { toggle(), restart(), toTheEnd() } */
@@ -30,14 +32,15 @@ export class Transport {
     this.frame = element('div', { class: 'controls-time' }, this.play, this.restart, this.toTheEnd, this.bar, element('span', { class: 'times' }, this.clock, this.speed));
   }
 
-  show(state) {
+  /** `news`: said in place of how fast it goes; mostly nothing. */
+  show(state, news = '') {
     const { status, prepared, frame } = state;
     const playing = status === 'playing';
     nameButton(this.play, playing ? 'pause' : 'play', playing ? 'Pause' : 'Play');
     this.play.disabled = ['opening', 'failed', 'changed'].includes(status);
     this.restart.disabled = this.play.disabled || status === 'ready';
     this.toTheEnd.disabled = this.play.disabled || status === 'ended';
-    this.speed.textContent = words[status](state);
+    this.speed.textContent = news || words[status](state);
     this.clock.textContent = prepared ? `${clock(frame.time_s)} of ${number(prepared.duration_s)} s` : '';
     this.bar.value = prepared ? frame.time_s / prepared.duration_s : 0;
     this.bar.setAttribute('aria-valuetext', this.clock.textContent);
