@@ -50,9 +50,17 @@ class Recording:
 
     @cached_property
     def map(self):
-        """Means over the measuring window by cell, in the tray's frame: x_m, y_m of its middle, packing_fraction, vx_m_per_s and
-        vy_m_per_s (empty where no seed was). None of a run that ended before its window."""
-        head = self.header.get("map")
+        """Means over the measuring window by cell, in the tray's frame, without seeds in the hopper: x_m, y_m of its middle,
+        packing_fraction, vx_m_per_s and vy_m_per_s (empty where no seed was). None of a run that ended before its window."""
+        return self._map("map")
+
+    @cached_property
+    def hopper_map(self):
+        """The same of the seeds in the hopper, in its frame. None without any."""
+        return self._map("hopper_map")
+
+    def _map(self, name):
+        head = self.header.get(name)
         if head is None:
             return None
         packing, vx, vy = numpy.frombuffer(self._unpacked(head), "<f4").reshape(3, -1)

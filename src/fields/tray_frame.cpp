@@ -50,18 +50,24 @@ void bring_within(std::vector<double>& places, double period) {
   for (double& place : places) place = within_period(place, period);
 }
 
+/// Calls `act` with each array of a snapshot that has an entry a grain.
+void for_each_array(const auto& act) {
+  using S = Snapshot;
+  const auto with = [&](auto... arrays) { (act(arrays), ...); };
+  with(&S::x, &S::y, &S::vx, &S::vy, &S::omega, &S::angle, &S::lot, &S::id, &S::radius, &S::mass, &S::area, &S::start_x,
+       &S::start_y, &S::z, &S::vz, &S::omega_x, &S::omega_y, &S::q_w, &S::q_x, &S::q_y, &S::q_z, &S::start_z,
+       &S::volume, &S::in_tray);
+}
+
+void append(Snapshot& to, const Snapshot& from, std::size_t i) {
+  for_each_array([&](auto array) {
+    if (!(from.*array).empty()) (to.*array).push_back((from.*array)[i]);
+  });
+}
+
 /// Appends grain `i` of `from`, moved (m).
 void append_moved(Snapshot& to, const Snapshot& from, std::size_t i, double along, double across) {
-  const auto append = [&]<class... Array>(Array Snapshot::*... arrays) {
-    const auto one = [&](auto array) {
-      if (!(from.*array).empty()) (to.*array).push_back((from.*array)[i]);
-    };
-    (one(arrays), ...);
-  };
-  using S = Snapshot;
-  append(&S::x, &S::y, &S::vx, &S::vy, &S::omega, &S::angle, &S::lot, &S::id, &S::radius, &S::mass, &S::area,
-         &S::start_x, &S::start_y, &S::z, &S::vz, &S::omega_x, &S::omega_y, &S::q_w, &S::q_x, &S::q_y, &S::q_z,
-         &S::start_z, &S::volume, &S::in_tray);
+  append(to, from, i);
   to.x.back() += along;
   if (to.is_3d()) to.z.back() += across;
 }
@@ -124,6 +130,13 @@ Snapshot with_images(const Snapshot& own, const Periods& periods, double reach) 
       }
     }
   return bed;
+}
+
+Snapshot part_of(const Snapshot& bed, const std::vector<std::size_t>& grains) {
+  Snapshot part = bed;
+  for_each_array([&](auto array) { (part.*array).clear(); });
+  for (const std::size_t i : grains) append(part, bed, i);
+  return part;
 }
 
 std::vector<std::size_t> grains_in_tray(const Snapshot& own, const Vessel& tray) {

@@ -21,6 +21,9 @@ Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray);
 /// tray, under the same ids: what a map needs at its edges. `own`: in the tray's frame.
 Snapshot with_images(const Snapshot& own, const Periods& periods, double reach);
 
+/// The same moment with some of its grains alone. `grains`: their indices, ascending.
+Snapshot part_of(const Snapshot& bed, const std::vector<std::size_t>& grains);
+
 /// Indices of the grains in the tray, as the snapshot knows them; of one that does not, of those between the tray's end
 /// walls, above its floor line and below their tops, and in 3D between its front and back. `own`: in the tray's frame.
 std::vector<std::size_t> grains_in_tray(const Snapshot& own, const Vessel& tray);

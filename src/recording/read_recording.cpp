@@ -196,7 +196,8 @@ void read_recording(const std::string& file, const std::function<void(const Snap
       if (offset > file.size() - blocks || size > file.size() - blocks - offset) damaged();
     };
     for (const Json& contacts : header.value("contacts", Json::array())) check_whole(contacts);
-    if (header.contains("map")) check_whole(header["map"]);
+    for (const char* map : {"map", "hopper_map"})
+      if (header.contains(map)) check_whole(header[map]);
     std::size_t left = most_unpacked;
     std::int64_t frames_left = most_frames;
     for (const Json& block : header.at("blocks")) {

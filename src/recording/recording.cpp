@@ -1,6 +1,7 @@
 #include "recording/recording.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@ namespace vibrosow {
 namespace {
 
 constexpr int frames_per_block = 250;
+constexpr std::array map_names = {"map", "hopper_map"};  // by vessel
 constexpr double counts_per_diameter = 200, counts_per_turn = 1024, counts_per_one = 500;
 
 std::int32_t in_counts(double value, double unit) {
@@ -84,6 +86,30 @@ Scene with_map(Scene scene) {
   return scene;
 }
 
+/// The scene whose tray is another of its vessels: the maps of a scene are of its tray.
+Scene with_tray(Scene scene, const Vessel& vessel) {
+  scene.tray = vessel;
+  return scene;
+}
+
+/// Empty without a look in the measuring window, or of a vessel that stayed empty.
+std::string map_bytes(const MeanMap& map) {
+  if (map.grid.size() == 0) return "";
+  std::string bytes;
+  for (const std::vector<double>* values : {&map.packing, &map.vx, &map.vy})
+    for (const double value : *values) append(bytes, static_cast<float>(value));
+  return packed(bytes);
+}
+
+nlohmann::ordered_json map_header(const Scene& scene, const MeanMap& map, std::size_t offset, std::size_t bytes) {
+  const bool slice = scene.space != Space::two_dimensional && scene.record->view == MapView::slice;
+  return {{"cell_m", map.grid.cell}, {"columns", map.grid.columns},
+          {"rows", map.grid.rows},   {"view", slice ? "slice" : "projection"},
+          {"looks", map.looks},      {"from_s", map.from},
+          {"to_s", map.to},          {"offset", offset},
+          {"bytes", bytes}};
+}
+
 double map_interval(const MeasuringWindow& window) {
   constexpr double looks = 211;  // a prime, so that shaking is met in many of its phases
   return std::max(window.length(), 0.0) / looks;
@@ -96,10 +122,13 @@ Recording::Recording(const Model& model)
       fields_(fields_of(model.scene)),
       frame_interval_(frame_interval(model)),
       frames_per_contacts_(frames_per_contacts(model)),
-      map_scene_(with_map(model.scene)),
-      window_(measuring_window(map_scene_)),
-      extents_(map_scene_.lots),
-      map_(map_scene_) {
+      window_(measuring_window(model.scene)),
+      extents_(model.scene.lots) {
+  const Scene scene = with_map(model.scene);
+  for (std::size_t v = 0; v < vessels_.size(); ++v) {
+    const Scene own = with_tray(scene, vessels_[v]);
+    maps_.push_back({v, own, MeanMapSum(own)});
+  }
   for (const std::string& field : fields_)
     units_.push_back(field.size() == 1  ? 2 * model.smallest_radius / counts_per_diameter
                      : field == "angle" ? 2 * std::numbers::pi / counts_per_turn
@@ -199,10 +228,14 @@ void Recording::add_to_map(Simulation& simulation) {
   const double time = simulation.time();
   if (time < window_.from || time == map_time_) return;
   map_time_ = time;
-  Snapshot bed = snapshot_of(simulation.grains(), simulation.field().walls(), time);
-  extents_.add_to(bed);
-  bed.start_x = bed.x, bed.start_y = bed.y, bed.start_z = bed.z;
-  map_.add(in_tray_frame(bed, map_scene_.tray));
+  std::array<std::vector<std::size_t>, 2> grains;  // in the tray or beside it, in the hopper
+  for (std::size_t i = 0; i < simulation.grains().size(); ++i) grains[simulation.is_in_hopper(i) ? 1 : 0].push_back(i);
+  for (VesselMap& map : maps_) {
+    Snapshot bed = snapshot_of(simulation.grains(), simulation.field().walls(), time, map.vessel);
+    extents_.add_to(bed);
+    bed.start_x = bed.x, bed.start_y = bed.y, bed.start_z = bed.z;
+    map.sum.add(in_tray_frame(part_of(bed, grains[map.vessel]), map.scene.tray));
+  }
 }
 
 void Recording::close_block() {
@@ -239,32 +272,17 @@ std::string Recording::file() const {
     header["contacts"].push_back(
         {{"frame", contacts.frame}, {"offset", end + contacts.offset}, {"bytes", contacts.bytes}});
   end += packed_contacts_.size();
-  const std::string map = map_bytes();
-  if (!map.empty()) header["map"] = map_header(end, map.size());
+  std::string maps;
+  for (const VesselMap& one : maps_) {
+    const MeanMap map = one.sum.mean();
+    const std::string bytes = map_bytes(map);
+    if (!bytes.empty()) header[map_names[one.vessel]] = map_header(one.scene, map, end + maps.size(), bytes.size());
+    maps += bytes;
+  }
   const std::string text = header.dump();
   std::string file = "VBSWREC1";
   append(file, static_cast<std::uint32_t>(text.size()));
-  return file + text + packed_ + packed_contacts_ + map;
-}
-
-/// Empty without a look in the measuring window, or of a tray that stayed empty.
-std::string Recording::map_bytes() const {
-  const MeanMap map = map_.mean();
-  if (map.grid.size() == 0) return "";
-  std::string bytes;
-  for (const std::vector<double>* values : {&map.packing, &map.vx, &map.vy})
-    for (const double value : *values) append(bytes, static_cast<float>(value));
-  return packed(bytes);
-}
-
-nlohmann::ordered_json Recording::map_header(std::size_t offset, std::size_t bytes) const {
-  const MeanMap map = map_.mean();
-  const bool slice = map_scene_.space != Space::two_dimensional && map_scene_.record->view == MapView::slice;
-  return {{"cell_m", map.grid.cell}, {"columns", map.grid.columns},
-          {"rows", map.grid.rows},   {"view", slice ? "slice" : "projection"},
-          {"looks", map.looks},      {"from_s", map.from},
-          {"to_s", map.to},          {"offset", offset},
-          {"bytes", bytes}};
+  return file + text + packed_ + packed_contacts_ + maps;
 }
 
 double frame_interval(const Model& model) {

@@ -16,7 +16,8 @@ namespace vibrosow {
 
 /// A run to be looked at: where its grains and vessels are, frame by frame, rounded to a two-hundredth of the smallest
 /// seed and packed to a byte or so a coordinate; in at most 50 frames its contacts with their forces; and packing and
-/// velocity by cell, in the mean over the measuring window. docs/reference/recording-format.md has the format.
+/// velocity by cell, in the mean over the measuring window: of the tray without what is in the hopper, and of what is in
+/// the hopper, each in its own frame. docs/reference/recording-format.md has the format.
 class Recording {
  public:
   explicit Recording(const Model& model);
@@ -26,7 +27,7 @@ class Recording {
 
   /// Appends the grains and vessels as they are now; a second frame of one time is left out.
   void add(Simulation& simulation);
-  /// Adds the bed as it is now to the means; what is before the measuring window is left out.
+  /// Adds the seeds as they are now to the means; what is before the measuring window is left out.
   void add_to_map(Simulation& simulation);
 
   /// The recording so far as a file.
@@ -43,6 +44,13 @@ class Recording {
     std::size_t offset, bytes;
   };
 
+  /// Of a vessel, which stands for the tray in a scene with a [record].
+  struct VesselMap {
+    std::size_t vessel;
+    Scene scene;
+    MeanMapSum sum;
+  };
+
   struct FrameContacts {
     int frame;
     std::size_t offset, bytes;
@@ -53,8 +61,6 @@ class Recording {
   void add_places(const Grains& grains);
   void add_contacts(Simulation& simulation);
   void close_block();
-  std::string map_bytes() const;
-  nlohmann::ordered_json map_header(std::size_t offset, std::size_t bytes) const;
 
   std::vector<Vessel> vessels_;
   std::vector<std::string> fields_;
@@ -71,10 +77,9 @@ class Recording {
   int frames_per_contacts_;
   std::string packed_contacts_;
   std::vector<FrameContacts> contacts_;
-  Scene map_scene_;  // with a [record]
   MeasuringWindow window_;
   GrainExtents extents_;
-  MeanMapSum map_;
+  std::vector<VesselMap> maps_;
   double map_time_ = -1;  // s, of the last look
 };
 

@@ -35,9 +35,9 @@ std::vector<double> or_zeros(std::vector<double> values, std::size_t size) {
 
 }  // namespace
 
-Snapshot snapshot_of(const Grains& grains, const Walls& walls, double time) {
-  const Pose pose = walls.pose(0, time);
-  const PoseRate rate = walls.rate(0, time);
+Snapshot snapshot_of(const Grains& grains, const Walls& walls, double time, std::size_t vessel) {
+  const Pose pose = walls.pose(vessel, time);
+  const PoseRate rate = walls.rate(vessel, time);
   Snapshot s;
   s.time = time;
   s.tray_x = pose.displacement.x(), s.tray_y = pose.displacement.y(), s.tray_angle = pose.angle;

@@ -37,6 +37,9 @@ class SeedPlaces {
   /// into the tray its own.
   bool counts_in(const Eigen::Vector3d& at, std::size_t vessel, const Walls& walls) const;
 
+  /// Whether it lies in a hopper, or in an image of one, below its top.
+  bool is_in_hopper(const Eigen::Vector3d& at, const Walls& walls) const { return lies_in_hopper_within(at, 0, walls); }
+
   /// m, by how much a ball at `at` (m, lab) reaches into the nearest wall of any vessel; negative: it is clear.
   double depth_in_walls(const Eigen::Vector3d& at, double radius, const Walls& walls) const;
 

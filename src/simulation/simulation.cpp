@@ -300,6 +300,10 @@ bool Simulation::is_in_tray(std::size_t i) const {
          feeder_.places().counts_in(state_.grains.place(i), 0, walls);
 }
 
+bool Simulation::is_in_hopper(std::size_t i) const {
+  return feeder_.places().is_in_hopper(state_.grains.place(i), field_.walls());
+}
+
 std::int64_t Simulation::inside_tray(std::int64_t most) const {
   std::int64_t inside = 0;
   for (std::size_t i = 0; i < state_.grains.size() && inside < most; ++i) inside += is_in_tray(i) ? 1 : 0;

@@ -68,6 +68,9 @@ class Simulation {
   /// What has come of it so far.
   Run result() const;
 
+  /// Whether the centre of a grain lies in the hopper, or in an image of it.
+  bool is_in_hopper(std::size_t i) const;
+
   /// The bed and its contacts as they are now.
   Frame frame();
 

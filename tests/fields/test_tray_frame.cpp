@@ -141,5 +141,19 @@ TEST(Images, StandBeyondBothSeamsAsFarAsAsked) {
   EXPECT_EQ(with_images(own, {0.06, 0}, 0.15).size(), 2u + 5u + 6u) << "in three periods on each side";
 }
 
+TEST(PartOf, HasTheChosenGrainsAndTheMomentOfAll) {
+  Snapshot bed;
+  put_ball(bed, {0.001, 0.01, 0.019}), put_ball(bed, {0.03, 0.02, 0.01}), put_ball(bed, {0.05, 0.03, 0.005});
+  bed.time = 2, bed.tray_x = 0.004;
+  const Snapshot part = part_of(bed, {0, 2});
+  EXPECT_EQ(part.time, 2);
+  EXPECT_EQ(part.tray_x, 0.004);
+  EXPECT_EQ(part.id, (std::vector<std::int64_t>{0, 2}));
+  EXPECT_EQ(part.y, (std::vector<double>{0.01, 0.03}));
+  EXPECT_EQ(part.volume.size(), 2u);
+  EXPECT_TRUE(part.q_w.empty());
+  EXPECT_EQ(part_of(bed, {}).size(), 0u);
+}
+
 }  // namespace
 }  // namespace vibrosow

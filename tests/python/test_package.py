@@ -363,7 +363,9 @@ class Recordings(Case):
         self.assertTrue(0.1 <= head["from_s"] < head["to_s"] <= 0.3 + 1e-4)
         self.assertTrue(0.7 < cells.packing_fraction.max() < 1)
         self.assertTrue((cells.packing_fraction == 0).equals(cells.vx_m_per_s.isna()))
-        in_cells = (cells.packing_fraction * head["cell_m"]**2).sum()
+        in_hopper = recording.hopper_map
+        self.assertTrue(in_hopper.packing_fraction.max() > 0.7 and in_hopper.x_m.max() < 0.1)
+        in_cells = ((cells.packing_fraction.sum() + in_hopper.packing_fraction.sum()) * head["cell_m"]**2)
         last = list(recording)[-1].grains
         self.assertLess(abs(in_cells / (math.pi * last.radius_m**2).sum() - 1), 0.2)
 

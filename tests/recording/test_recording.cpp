@@ -10,6 +10,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 
 #include "fields/tray_frame.hpp"
 #include "recording/read_recording.hpp"
@@ -31,7 +32,8 @@ class Reader {
     header = Json::parse(file.substr(12, size));
     for (const Json& block : header["blocks"]) read_block(part(file, block), block["frames"]);
     for (const Json& one : header["contacts"]) read_contacts(part(file, one), one["frame"]);
-    if (header.contains("map")) read_map(part(file, header["map"]));
+    for (const std::string name : {"map", "hopper_map"})
+      if (header.contains(name)) read_map(part(file, header[name]), header[name], maps[name]);
   }
 
   struct Frame {
@@ -54,6 +56,9 @@ class Reader {
     std::vector<int> place;
     double force;
   };
+  struct Map {
+    std::vector<float> packing, vx, vy;
+  };
   struct Contacts {
     double largest;
     std::vector<Pair> pairs;
@@ -61,8 +66,8 @@ class Reader {
   };
   Json header;
   std::vector<Frame> frames;
-  std::map<int, Contacts> contacts;    // by frame
-  std::vector<float> packing, vx, vy;  // of the map
+  std::map<int, Contacts> contacts;  // by frame
+  std::map<std::string, Map> maps;   // by key of the header
   std::map<std::int64_t, Entered> entered;
 
  private:
@@ -121,10 +126,10 @@ class Reader {
     EXPECT_EQ(at_, size);
   }
 
-  void read_map(const std::string& packed) {
+  void read_map(const std::string& packed, const Json& head, Map& map) {
     const std::size_t size = unpack(packed);
-    const std::size_t cells = header["map"]["columns"].get<std::size_t>() * header["map"]["rows"].get<std::size_t>();
-    for (std::vector<float>* values : {&packing, &vx, &vy})
+    const std::size_t cells = head["columns"].get<std::size_t>() * head["rows"].get<std::size_t>();
+    for (std::vector<float>* values : {&map.packing, &map.vx, &map.vy})
       for (std::size_t k = 0; k < cells; ++k) values->push_back(take<float>());
     EXPECT_EQ(at_, size);
   }
@@ -360,10 +365,47 @@ TEST_P(OfBothSpaces, TheMapIsTheMeanOfTheMeasuringWindow) {
   EXPECT_NEAR(map.looks, 211, 25);  // of whole steps
   EXPECT_GE(read.header["map"]["from_s"].get<double>(), 0.3);
   EXPECT_DOUBLE_EQ(read.header["map"]["cell_m"].get<double>(), scene.record->cell);
-  ASSERT_EQ(read.packing.size(), map.grid.size());
-  for (std::size_t k = 0; k < read.packing.size(); ++k) {
-    EXPECT_EQ(read.packing[k], static_cast<float>(map.packing[k]));
-    EXPECT_TRUE(read.vy[k] == static_cast<float>(map.vy[k]) || (std::isnan(read.vy[k]) && map.packing[k] == 0));
+  const Reader::Map& kept = read.maps.at("map");
+  ASSERT_EQ(kept.packing.size(), map.grid.size());
+  for (std::size_t k = 0; k < kept.packing.size(); ++k) {
+    EXPECT_EQ(kept.packing[k], static_cast<float>(map.packing[k]));
+    EXPECT_TRUE(kept.vy[k] == static_cast<float>(map.vy[k]) || (std::isnan(kept.vy[k]) && map.packing[k] == 0));
+  }
+  EXPECT_FALSE(read.maps.contains("hopper_map"));
+}
+
+/// How many grains of a scene's first lot a map holds.
+double grains_in(const Reader::Map& map, const Json& head, const Scene& scene, const Vessel& vessel) {
+  const double cell = head["cell_m"], radius = 0.5 * scene.lots[0].diameter;
+  const bool is_3d = scene.space == Space::three_dimensional;
+  const double room = cell * cell * (is_3d ? *vessel.depth : 1);
+  const double grain = std::numbers::pi * radius * radius * (is_3d ? 4.0 / 3 * radius : 1);
+  return std::accumulate(map.packing.begin(), map.packing.end(), 0.0) * room / grain;
+}
+
+TEST_P(OfBothSpaces, WhatIsInAHopperThatRestsIsInItsOwnMapAlone) {
+  Scene scene = open_box(GetParam());
+  scene.tray.rain.reset();
+  scene.tray.holes.clear();
+  scene.tray.fill->count = 9;
+  Vessel& hopper = scene.hopper.emplace();
+  hopper.name = "hopper", hopper.origin = {0.03, 0.05}, hopper.length = hopper.height = 0.04;  // within the tray
+  if (scene.space == Space::three_dimensional) hopper.front = 0.01, hopper.depth = 0.03;
+  hopper.fill = Fill{5, Packing::layers, 0, false};
+  scene.run.measure_from = 0.3;
+  const Model model = with_step(prepare(scene), 5e-5);
+  Simulation run(model, 1);
+  Recording recording(model);
+  for (const Observer& one : recording.observers()) run.watch(one.every, one.observe);
+  while (!run.at_end()) ASSERT_TRUE(run.step());
+  const Reader read(recording.file());
+  const Reader::Map& own = read.maps.at("hopper_map");
+  EXPECT_NEAR(grains_in(own, read.header["hopper_map"], scene, hopper), 5, 1e-3);
+  EXPECT_NEAR(grains_in(read.maps.at("map"), read.header["map"], scene, scene.tray), 9, 1e-3);
+  EXPECT_EQ(read.header["hopper_map"]["columns"], 4);
+  for (std::size_t k = 0; k < own.vx.size(); ++k) {
+    if (own.packing[k] == 0) continue;
+    EXPECT_NEAR(own.vx[k], 0, 0.02) << "the tray swings at 0.25 m/s";
   }
 }
 

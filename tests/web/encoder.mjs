@@ -82,8 +82,8 @@ function mapBytes({ packing, vx, vy }) {
 }
 
 /** `frames`: [{ time, poses: [[x, y, z, angle]], grains: [{ id, lot, radius, start, values: counts of each field }], contacts }], the last of
- *  some; `map`: { cell_m, columns, rows, view, looks, from_s, to_s, packing, vx, vy } or none. */
-export function encodeRecording({ frames, fields, units, vessels, perBlock, map, version = 2 }) {
+ *  some; `map` and `hopperMap`: { cell_m, columns, rows, view, looks, from_s, to_s, packing, vx, vy } or none. */
+export function encodeRecording({ frames, fields, units, vessels, perBlock, map, hopperMap, version = 2 }) {
   const blocks = [];
   for (let from = 0; from < frames.length; from += perBlock) {
     const bytes = new Bytes();
@@ -107,11 +107,11 @@ export function encodeRecording({ frames, fields, units, vessels, perBlock, map,
   };
   const axes = fields.includes('z') ? 3 : 2;
   const contacts = frames.flatMap((frame, k) => (frame.contacts ? [{ frame: k, ...add(contactBytes(frame.contacts, axes)) }] : []));
-  const { packing, vx, vy, ...head } = map ?? {};
-  const mapEntry = map ? { ...head, ...add(mapBytes(map)) } : undefined;
+  const entryOf = (one) => (one ? { ...one, packing: undefined, vx: undefined, vy: undefined, ...add(mapBytes(one)) } : undefined);
+  const maps = { map: entryOf(map), hopper_map: entryOf(hopperMap) };
   const grains = 1 + Math.max(-1, ...frames.flatMap((frame) => frame.grains.map((grain) => grain.id)));
   const header = Buffer.from(JSON.stringify({
-    version, frames: frames.length, frames_per_block: perBlock, unit_m: units[0], fields, field_units: units, vessels, grains, blocks: index, ...(version > 1 ? { contacts, map: mapEntry } : {}),
+    version, frames: frames.length, frames_per_block: perBlock, unit_m: units[0], fields, field_units: units, vessels, grains, blocks: index, ...(version > 1 ? { contacts, ...maps } : {}),
   }));
   const length = Buffer.alloc(4);
   length.writeUInt32LE(header.length);

@@ -19,6 +19,8 @@ const trays = {
   space: { length: 0.16, depth: 0.05, holes: [0.04, 0.08, 0.12], half: 0.006, rows: 4, across: 10 },
 };
 
+const hopper = { length: 0.05, holes: [0, 0.025] };
+
 // Row above row, so many as hold them.
 function placesOf(tray, count) {
   const pitch = 0.005;
@@ -177,7 +179,7 @@ export function madeUpRun(space, names = {}) {
     return k % 4 === 0 ? { ...frame, contacts: contactsOf(frame, all) } : frame;
   });
   const recording = encodeRecording({
-    frames, map: mapOf(tray), version: names.version, perBlock: 25, vessels: ['tray', 'hopper'],
+    frames, map: mapOf(tray), hopperMap: mapOf(hopper), version: names.version, perBlock: 25, vessels: ['tray', 'hopper'],
     fields: inSpace ? ['x', 'y', 'z', 'qw', 'qx', 'qy', 'qz'] : ['x', 'y', 'angle'],
     units: inSpace ? [unit, unit, unit, ...Array(4).fill(quaternionUnit)] : [unit, unit, angleUnit],
   });

@@ -129,10 +129,12 @@ for (const space of ['plane', 'three_dimensional']) {
     test('maps of packing and velocity are drawn and said', async () => {
       assert.match(await page.locator('#map-packing figcaption').textContent(), /^Densest, 0\.7\d*, \d.* from the left end and 3\.3 mm over the floor; /);
       assert.match(await page.locator('#map-velocity figcaption').textContent(), /^Fastest, 0\.\d+ m\/s .*, at hole 2; /);
-      assert.match(await page.locator('#maps .lead').textContent(), /211 looks from 0\.5 to 2 s/);
-      for (const id of ['map-packing', 'map-velocity']) {
+      const [ofTray, ofHopper] = await page.locator('#maps .lead').allTextContents();
+      assert.match(ofTray, /211 looks from 0\.5 to 2 s, in the tray’s own frame, .* Seeds in the hopper are left out; they have maps of their own\./);
+      assert.match(ofHopper, /in the hopper’s own frame, /);
+      for (const id of ['map-packing', 'map-velocity', 'hopper-map-packing', 'hopper-map-velocity']) {
         const canvas = page.locator(`#${id} canvas`);
-        assert.match(await canvas.getAttribute('aria-label'), /^(Packing|Velocity)\. /);
+        assert.match(await canvas.getAttribute('aria-label'), /^(Packing|Velocity)( in the hopper)?\. /);
         const painted = await canvas.evaluate((one) => new Set(new Uint32Array(one.getContext('2d').getImageData(0, 0, one.width, one.height).data.buffer)).size);
         assert.ok(painted > 10, `${id} has ${painted} colours`);
       }

@@ -7,7 +7,6 @@ import { Counters } from '../../web/report/counters.mjs';
 import { axisScale, duration, force, list, niceAbove, number, plusMinus, sentence } from '../../web/report/format.mjs';
 import { floorAt, toLab, toOwn, wallsSeenFrom } from '../../web/report/geometry.mjs';
 import { lightOf, notes } from '../../web/report/light.mjs';
-import { mapOfTray } from '../../web/report/tray_map.mjs';
 import { mapSentence, packingSentence, velocitySentence } from '../../web/report/map_sentences.mjs';
 import { outflowSentence } from '../../web/report/outflow_sentence.mjs';
 import { readPageData } from '../../web/report/page_data.mjs';
@@ -101,30 +100,19 @@ test('forces have the unit that suits them', () => {
   assert.deepEqual([0, 2.5, 0.0123, 4e-5, 3e-8].map(force), ['0 N', '2.5 N', '12.3 mN', '40 µN', '30 nN']);
 });
 
-test('a map of the tray is without what a hopper covers while the tray swings', () => {
-  const tray = { name: 'tray', lines: [{ points_mm: [[0, 0], [100, 0]] }] };
-  const hopper = { name: 'hopper', lines: [{ points_mm: [[40, 60], [40, 30], [47, 20]] }, { points_mm: [[60, 60], [60, 30], [53, 20]] }] };  // in the lab's frame
-  const recording = { vessels: ['tray', 'hopper'], frames: 4, pose: (frame, vessel) => ({ x: vessel === 0 ? [0, 0.01, 0, -0.01][frame] : 0, y: 0, angle: 0 }) };
-  const map = { cell: 0.01, columns: 10, rows: 5, packing: Float32Array.from({ length: 50 }, (_, k) => (k === 49 ? 0 : 0.5)), vx: new Float32Array(50), vy: new Float32Array(50) };
-  const { map: own, leftOut } = mapOfTray(map, [tray, hopper], recording);
-  const row = (k) => [...own.packing.slice(10 * k, 10 * k + 10)].map((share) => (share > 0 ? 'o' : '.')).join('');
-  // 10 mm to either side of the hopper's own 20 mm; its cone begins 20 mm up, no wider than 20 mm and the swing; the last cell was empty.
-  assert.deepEqual([0, 1, 2, 3, 4].map(row), ['oooooooooo', 'oooooooooo', 'ooo....ooo', 'ooo....ooo', 'ooo....oo.']);
-  assert.equal(leftOut, 12);
-  assert.ok(Number.isNaN(own.vx[34]) && own.vx[0] === 0);
-  assert.equal(mapOfTray(map, [tray], { ...recording, vessels: ['tray'] }).leftOut, 0);
-});
-
 test('sentences of maps', () => {
-  const tray = { holes: [{ number: 1, x_mm: 5, half_x_mm: 2 }, { number: 2, x_mm: 5, half_x_mm: 2 }, { number: 3, x_mm: 55, half_x_mm: 2 }] };
+  const tray = { name: 'tray', holes: [{ number: 1, x_mm: 5, half_x_mm: 2 }, { number: 2, x_mm: 5, half_x_mm: 2 }, { number: 3, x_mm: 55, half_x_mm: 2 }] };
   const map = { cell: 0.01, columns: 6, rows: 2, looks: 211, from: 1, to: 3, view: 'slice',
     packing: [0.4, 0.6, 0.8, 0.6, 0.6, 0.04, 0, 0, 0.2, 0, 0, 0], vx: [0.01, 0, 0.02, 0, 0, 9, NaN, NaN, 0.02, NaN, NaN, NaN], vy: [-0.2, 0, 0, 0, 0, 9, NaN, NaN, 0, NaN, NaN, NaN] };
   assert.equal(packingSentence(map, tray), 'Densest, 0.8, 25 mm from the left end and 5 mm over the floor; 0.6 in the mean of the cells that are at least half as dense.');
   assert.equal(velocitySentence(map, tray), 'Fastest, 0.2 m/s down, at holes 1 and 2; cells that seeds fill to less than 0.05 are left out.');
-  assert.equal(mapSentence(map, 'three_dimensional'),
+  assert.equal(mapSentence(map, 'three_dimensional', tray),
     'The mean of 211 looks from 1 to 3 s, in the tray’s own frame, in cells of 10 mm, of a slice through the middle of the depth.');
-  assert.match(mapSentence(map, 'plane', [{ name: 'hopper' }], 7), /The hopper is drawn where it stands while nothing shakes; seeds in it are left out, for they do not move with the tray\.$/);
-  assert.match(mapSentence(map, 'plane', [{ name: 'hopper' }]), /cells of 10 mm\. The hopper is drawn where it stands while nothing shakes\.$/);
+  const hopper = { name: 'hopper' };
+  assert.match(mapSentence(map, 'plane', tray, { beside: [hopper], isInHopper: true }),
+    /in the tray’s own frame, .* Seeds in the hopper are left out; they have maps of their own\. The hopper is drawn where it stands while nothing shakes\.$/);
+  assert.match(mapSentence(map, 'plane', tray, { beside: [hopper] }), /cells of 10 mm\. The hopper is drawn where it stands while nothing shakes\.$/);
+  assert.match(mapSentence(map, 'plane', hopper, { isInHopper: true }), /in the hopper’s own frame, .* Of the seeds in the hopper alone\.$/);
   const empty = { ...map, packing: map.packing.map(() => 0) };
   assert.equal(packingSentence(empty, tray), 'The tray was empty.');
   assert.match(velocitySentence(empty, tray), /^No cell/);

@@ -100,9 +100,14 @@ test('contacts that are cut off or of grains that are not there are refused', as
 test('maps come back, and a recording of the first version has none', async () => {
   const map = { cell_m: 0.006, columns: 2, rows: 1, view: 'projection', looks: 7, from_s: 1, to_s: 2, packing: [0.5, 0], vx: [0.25, NaN], vy: [-0.5, NaN] };
   const options = { frames: frames(), fields, units: [1e-5, 1e-5, 1e-3], vessels: ['tray', 'hopper'], perBlock: 3 };
-  const read = await (await openRecording(encodeRecording({ ...options, map }))).map();
-  assert.deepEqual([[...read.packing], [...read.vx], [...read.vy]], [map.packing, map.vx, map.vy]);
+  const hopperMap = { ...map, packing: [0.25, 0.75], vx: [0, 0.5], vy: [-1, 0.125] };
+  const both = await openRecording(encodeRecording({ ...options, map, hopperMap }));
+  for (const [vessel, given] of [['tray', map], ['hopper', hopperMap]]) {
+    const { packing, vx, vy } = await both.map(vessel);
+    assert.deepEqual([[...packing], [...vx], [...vy]], [given.packing, given.vx, given.vy]);
+  }
+  const read = await both.map();
   assert.deepEqual([read.cell, read.columns, read.looks, read.to], [0.006, 2, 7, 2]);
   const first = await openRecording(encodeRecording({ ...options, version: 1 }));
-  assert.deepEqual([first.forceFrames, await first.map()], [[], null]);
+  assert.deepEqual([first.forceFrames, await first.map(), await first.map('hopper')], [[], null, null]);
 });

@@ -1,4 +1,4 @@
-// Maps of where the bed is dense and how it flows, in the mean over the measured time, in the tray's own frame.
+// Maps of where seeds are dense and how they flow, in the mean over the measured time: in the tray, and in the hopper, each in its own frame.
 import { layerScale, speedScale } from './colours.mjs';
 import { element, section } from './dom.mjs';
 import { niceAbove, number } from './format.mjs';
@@ -7,18 +7,17 @@ import { legendParts } from './legend.mjs';
 import { emptyShare, mapSentence, packingSentence, speeds, velocitySentence } from './map_sentences.mjs';
 import { Stage } from './stage.mjs';
 import { inks, onTheme, theme } from './theme.mjs';
-import { mapOfTray } from './tray_map.mjs';
 
 const margin = 12;       // px
 const arrowEvery = 26;   // px, at least
 const steps = 20;        // of a colour scale
 const faint = 0.12;      // cells that seeds fill to less fade away
 
-// The tray's part that a map shows, mm: all its length, and its height as far as seeds were, and a little more.
-function partOf(map, tray) {
-  const ys = (tray?.lines ?? []).flatMap(({ points_mm: points }) => points.map(([, y]) => y));
+// A vessel's part that a map shows, mm: all its length, and its height as far as seeds were, and a little more.
+function partOf(map, vessel) {
+  const ys = (vessel?.lines ?? []).flatMap(({ points_mm: points }) => points.map(([, y]) => y));
   const cell = map.cell * 1000;
-  return { right: Math.max(tray?.length_mm ?? 0, map.columns * cell), low: Math.min(0, ...ys), high: (map.rows + 1) * cell };
+  return { right: Math.max(vessel?.length_mm ?? 0, map.columns * cell), low: Math.min(0, ...ys), high: (map.rows + 1) * cell };
 }
 
 // The other vessels of which something stands in that part.
@@ -28,9 +27,10 @@ function besideTray(map, [tray, ...others]) {
 }
 
 class MapView {
+  // `vessels`: the map's own, and those that are drawn with it.
   constructor(map, vessels, { values, top, scale, arrows }) {
-    const [tray] = vessels;
-    Object.assign(this, { map, values, top, scale, arrows, part: partOf(map, tray), walls: vessels.flatMap((vessel) => wallsSeenFrom(tray, vessel)) });
+    const [own] = vessels;
+    Object.assign(this, { map, values, top, scale, arrows, part: partOf(map, own), walls: vessels.flatMap((vessel) => wallsSeenFrom(own, vessel)) });
   }
 
   height(width) {
@@ -128,19 +128,25 @@ function mapFigure(id, title, sentence, view, legend) {
   return figure;
 }
 
-/** The section of a recording's map (`whole`); null of a run that kept none. */
-export function mapsSection(data, whole, recording) {
-  if (!whole) return null;
-  const { map, leftOut } = mapOfTray(whole, data.vessels, recording);
+// Packing and velocity of one vessel, under a sentence that says what they are of.
+function mapPair(data, { vessel: name, map }, isInHopper) {
   const [tray] = data.vessels;
-  const inSpace = data.space !== 'plane';
+  const own = data.vessels.find((vessel) => vessel.name === name) ?? tray, isTray = own === tray;
+  const drawn = isTray ? data.vessels : [own], id = isTray ? 'map' : `${name}-map`, of = isTray ? '' : ` in the ${name}`;
   const speed = speeds(map);
   const dense = Math.max(0.1, Math.ceil(Math.max(...map.packing) * 10 - 1e-6) / 10), fast = niceAbove(Math.max(0, ...speed.filter((value) => !Number.isNaN(value))));
-  const fills = inSpace ? 'part of a cell’s volume that seeds fill' : 'part of a cell’s area that seeds cover';
-  return section('maps', 'Where the bed is dense, and how it flows', element('p', { class: 'lead' }, mapSentence(map, data.space, besideTray(map, data.vessels), leftOut)),
+  const fills = data.space !== 'plane' ? 'part of a cell’s volume that seeds fill' : 'part of a cell’s area that seeds cover';
+  return [element('p', { class: 'lead' }, mapSentence(map, data.space, own, { beside: isTray ? besideTray(map, data.vessels) : [], isInHopper })),
     element('div', { class: 'maps' },
-      mapFigure('map-packing', 'Packing', packingSentence(map, tray), new MapView(map, data.vessels, { values: map.packing, top: dense, scale: layerScale }),
+      mapFigure(`${id}-packing`, `Packing${of}`, packingSentence(map, own), new MapView(map, drawn, { values: map.packing, top: dense, scale: layerScale }),
         { kind: 'scale', low: '0', high: number(dense), note: fills }),
-      mapFigure('map-velocity', 'Velocity', velocitySentence(map, tray), new MapView(map, data.vessels, { values: speed, top: fast, scale: speedScale, arrows: true }),
-        { kind: 'scale', low: '0', high: `${number(fast)} m/s`, note: 'mean velocity against the tray; arrows point where it goes' })));
+      mapFigure(`${id}-velocity`, `Velocity${of}`, velocitySentence(map, own), new MapView(map, drawn, { values: speed, top: fast, scale: speedScale, arrows: true }),
+        { kind: 'scale', low: '0', high: `${number(fast)} m/s`, note: `mean velocity against the ${own.name}; arrows point where it goes` }))];
+}
+
+/** The section of a recording's `maps`: [{ vessel, map }]; null of a run that kept none. */
+export function mapsSection(data, maps) {
+  if (maps.length === 0) return null;
+  const isInHopper = maps.some(({ vessel }) => vessel === 'hopper');
+  return section('maps', 'Where the bed is dense, and how it flows', maps.flatMap((one) => mapPair(data, one, isInHopper)));
 }

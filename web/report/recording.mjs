@@ -213,9 +213,9 @@ class Recording {
     return this.keptContacts.get(index);
   }
 
-  /** Packing fraction and velocity (m/s) by cell, rows from the floor; null where the run kept none. */
-  async map() {
-    const head = this.header.map;
+  /** Packing fraction and velocity (m/s) by cell, rows from the floor, of what is in the "tray" or in the "hopper", in its own frame; null where the run kept none. */
+  async map(vessel = 'tray') {
+    const head = { tray: this.header.map, hopper: this.header.hopper_map }[vessel];
     if (!head) return null;
     const bytes = await this.inflated(head);
     const cells = head.columns * head.rows;

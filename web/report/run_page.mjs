@@ -15,18 +15,19 @@ const endings = { stopped_by_guard: 'stopped by the guard', interrupted: 'interr
 async function recordingOf(text) {
   try {
     const recording = await openRecording(bytesOfBase64(text));
-    return { recording, map: (await recording?.map()) ?? null, problem: null };
+    const maps = await Promise.all(['tray', 'hopper'].map(async (vessel) => ({ vessel, map: (await recording?.map(vessel)) ?? null })));
+    return { recording, maps: maps.filter(({ map }) => map), problem: null };
   } catch (error) {
-    return { recording: null, map: null, problem: error.message };
+    return { recording: null, maps: [], problem: error.message };
   }
 }
 
 async function sections(data) {
-  const { recording, map, problem } = await recordingOf(document.getElementById('recording').textContent);
+  const { recording, maps, problem } = await recordingOf(document.getElementById('recording').textContent);
   const player = recording ? new Player(recording.times) : null;
   player?.showTime(data.window_s[0]);
   return [
-    replaySection(data, recording, player, problem), outflowSection(data, player), mapsSection(data, map, recording), unevennessSection(data), rowsSection(data),
+    replaySection(data, recording, player, problem), outflowSection(data, player), mapsSection(data, maps), unevennessSection(data), rowsSection(data),
     rerunSection(data), computedSection(data),
   ].filter(Boolean);
 }
