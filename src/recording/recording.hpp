@@ -16,8 +16,8 @@ namespace vibrosow {
 
 /// A run to be looked at: where its grains and vessels are, frame by frame, rounded to a two-hundredth of the smallest
 /// seed and packed to a byte or so a coordinate; in at most 50 frames its contacts with their forces; and packing and
-/// velocity by cell, in the mean over the measuring window: of the tray without what is in the hopper, and of what is in
-/// the hopper, each in its own frame. docs/reference/recording-format.md has the format.
+/// velocity by cell, in the mean over the measuring window: of the tray without what is in the hopper, and of what is
+/// in the hopper, each in its own frame. docs/reference/recording-format.md has the format.
 class Recording {
  public:
   explicit Recording(const Model& model);

@@ -8,8 +8,8 @@
 
 namespace vibrosow {
 
-/// The bed as it is now, without the arrays that say where grains were put in and what they fill. `vessel`: whose motion
-/// it has as the tray's (0: the tray).
+/// The bed as it is now, without the arrays that say where grains were put in and what they fill. `vessel`: whose
+/// motion it has as the tray's (0: the tray).
 Snapshot snapshot_of(const Grains& grains, const Walls& walls, double time, std::size_t vessel = 0);
 
 /// What grains of a scene's lots fill.
