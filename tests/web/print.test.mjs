@@ -80,8 +80,8 @@ async function printed(name, style) {
   const page = await opened(name, style);
   const kicker = (await page.locator('.kicker').count()) > 0 ? await page.locator('.kicker').textContent() : 'Studio';
   const told = { title: await page.locator('h1').textContent(), kicker, program: 'vibrosow 0.2.0' };
-  const text = await textOf(page);
   const { pdf, sheets } = await sheetsOf(page);
+  const text = await textOf(page);  // some of it is written when the page has its width
   assert.deepEqual(page.complaints, []);
   await page.context().close();
   return { pdf, sheets, problems: problemsOf(sheets, text, told) };

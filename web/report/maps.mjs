@@ -11,6 +11,7 @@ import { inks, onTheme, theme } from './theme.mjs';
 const margin = 12;       // px
 const arrowEvery = 26;   // px, at least
 const steps = 20;        // of a colour scale
+const narrowest = 320;   // px, of a small vessel's map
 const faint = 0.12;      // cells that seeds fill to less fade away
 
 // A vessel's part that a map shows, mm: all its length, and its height as far as seeds were, and a little more.
@@ -114,10 +115,12 @@ class MapView {
   }
 }
 
-function mapFigure(id, title, sentence, view, legend) {
+// `share`: how wide it is drawn, of the page's width.
+function mapFigure(id, title, sentence, view, legend, share) {
   const canvas = element('canvas', { role: 'img', 'aria-label': `${title}. ${sentence}` });
-  const key = element('p', { class: 'legend' });
-  const figure = element('figure', { class: 'card map', id }, element('h3', {}, title), element('div', { class: 'stage' }, canvas), key, element('figcaption', {}, sentence));
+  const key = element('p', { class: 'legend' }), place = element('div', { class: 'stage' }, canvas);
+  if (share < 1) place.style.maxWidth = `max(${narrowest}px, ${100 * share}%)`;
+  const figure = element('figure', { class: 'card map', id }, element('h3', {}, title), place, key, element('figcaption', {}, sentence));
   const stage = new Stage(canvas, (width) => view.height(width), () => view.draw(stage));
   const paint = () => {
     key.replaceChildren(...legendParts(legend, view.scale(steps, theme())));
@@ -135,13 +138,14 @@ function mapPair(data, { vessel: name, map }, isInHopper) {
   const drawn = isTray ? data.vessels : [own], id = isTray ? 'map' : `${name}-map`, of = isTray ? '' : ` in the ${name}`;
   const speed = speeds(map);
   const dense = Math.max(0.1, Math.ceil(Math.max(...map.packing) * 10 - 1e-6) / 10), fast = niceAbove(Math.max(0, ...speed.filter((value) => !Number.isNaN(value))));
+  const share = Math.min(1, own.length_mm / tray.length_mm);
   const fills = data.space !== 'plane' ? 'part of a cell’s volume that seeds fill' : 'part of a cell’s area that seeds cover';
   return [element('p', { class: 'lead' }, mapSentence(map, data.space, own, { beside: isTray ? besideTray(map, data.vessels) : [], isInHopper })),
     element('div', { class: 'maps' },
       mapFigure(`${id}-packing`, `Packing${of}`, packingSentence(map, own), new MapView(map, drawn, { values: map.packing, top: dense, scale: layerScale }),
-        { kind: 'scale', low: '0', high: number(dense), note: fills }),
+        { kind: 'scale', low: '0', high: number(dense), note: fills }, share),
       mapFigure(`${id}-velocity`, `Velocity${of}`, velocitySentence(map, own), new MapView(map, drawn, { values: speed, top: fast, scale: speedScale, arrows: true }),
-        { kind: 'scale', low: '0', high: `${number(fast)} m/s`, note: `mean velocity against the ${own.name}; arrows point where it goes` }))];
+        { kind: 'scale', low: '0', high: `${number(fast)} m/s`, note: `mean velocity against the ${own.name}; arrows point where it goes` }, share))];
 }
 
 /** The section of a recording's `maps`: [{ vessel, map }]; null of a run that kept none. */
