@@ -20,6 +20,7 @@
 #include "fields/tray_frame.hpp"
 #include "grains/turned_discs.hpp"
 #include "input/read_scene.hpp"
+#include "result/run_check.hpp"
 #include "scene/input_error.hpp"
 #include "scene/motion.hpp"
 #include "scene/scene_json.hpp"
@@ -27,6 +28,7 @@
 #include "scenes/any_scene.hpp"
 #include "scenes/mirrored.hpp"
 #include "scenes/own_walls.hpp"
+#include "simulation/live_run.hpp"
 #include "simulation/seed_places.hpp"
 #include "simulation/simulation.hpp"
 #include "support/bench.hpp"
@@ -359,6 +361,47 @@ std::string unbalanced(const DrawnScene& drawn) {
   while (wrong.empty() && !run.at_end() && run.step()) {
   }
   return wrong.empty() ? "" : wrong + told_by(run);
+}
+
+/// A run whose shake and first hole change on its way: what was counted before each change is no longer in its balance.
+std::string unbalanced_by_changes(const DrawnScene& drawn) {
+  std::optional<Scene> scene = scene_of(drawn);
+  if (!scene || scene->space != Space::two_dimensional || !start_of(drawn)) return "";
+  if (!scene->tray.motion || !std::holds_alternative<HarmonicMotion>(*scene->tray.motion))
+    scene->tray.motion = HarmonicMotion{0, 1e-3, 12, 0};  // which alone changes on the way
+  scene->run.end_after_pause.reset();
+  std::optional<LiveRun> started;
+  if (!refusal([&] { started.emplace(*scene, 1); }).empty()) return "";
+  LiveRun& run = *started;
+  std::set<std::int64_t> counted;
+  const auto count = [&] {
+    for (const OutflowEvent& event : run.simulation().events_since(0)) counted.insert(event.grain);
+  };
+  const auto go_to = [&](double time) {
+    while (run.simulation().time() < time && !run.simulation().at_end()) {
+      if (run.is_waiting()) count();  // the next step may begin anew
+      if (!run.step()) return;
+    }
+  };
+  go_to(0.4 * scene->run.duration);
+  Scene wanted = *scene;
+  HarmonicMotion& shake = std::get<HarmonicMotion>(*wanted.tray.motion);
+  shake.amplitude *= 1.3, shake.frequency *= 1.1;
+  if (!wanted.tray.holes.empty()) wanted.tray.holes.front().centre += 1e-3, wanted.tray.holes.front().width += 1e-3;
+  if (run.change(wanted)) return "";
+  go_to(1.2 * scene->run.duration);
+  count();
+  const vibrosow::Run result = run.simulation().result();
+  const Balance& balance = result.balance;
+  if (!is_balanced(balance)) return "put in is not inside + counted + spilled + lost" + told_by(run.simulation());
+  std::set<std::int64_t> known = counted;
+  known.insert(run.simulation().grains().id.begin(), run.simulation().grains().id.end());
+  const std::int64_t gone = run.simulation().grains().next_id - static_cast<std::int64_t>(known.size());
+  return gone <= balance.lost ? "" : std::to_string(gone) + " seeds are nowhere" + told_by(run.simulation());
+}
+
+TEST(DrawnScene, LosesNoSeedWhenItIsChangedOnItsWay) {
+  expect_of_drawn_scenes(60, unbalanced_by_changes);
 }
 
 TEST(DrawnScene, AllThatWasPutInIsSomewhere) {
