@@ -10,6 +10,7 @@
 #include "laws/law.hpp"
 #include "portable_math/functions.hpp"
 #include "scene/input_error.hpp"
+#include "scene/trimmed.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -28,11 +29,6 @@ double end_of_range(const std::string& key, const std::string& text) {
   if (const auto unit = column_unit(key)) return to_column_unit(key, in_si(quantity, unit->dimension));
   if (!quantity.unit.empty()) throw UnitError(fmt::format("{}: a plain number is expected", text));
   return quantity.number;
-}
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
 /// Looks at what keys of a seeder do.
@@ -65,8 +61,8 @@ KeyRange parse_range(const std::string& option, const std::string& key_is_range)
   KeyRange range;
   range.key = trimmed(key_is_range.substr(0, equals));
   try {
-    range.low = end_of_range(range.key, trimmed(key_is_range.substr(equals + 1, dots - equals - 1)));
-    range.high = end_of_range(range.key, trimmed(key_is_range.substr(dots + 2)));
+    range.low = end_of_range(range.key, std::string(trimmed(key_is_range.substr(equals + 1, dots - equals - 1))));
+    range.high = end_of_range(range.key, std::string(trimmed(key_is_range.substr(dots + 2))));
   } catch (const UnitError& error) {
     throw InputError(fmt::format("{}: {}", where, error.what()));
   }

@@ -53,16 +53,6 @@ void complain(const std::string& text) {
   std::fwrite(line.data(), 1, line.size(), stderr);  // nobody is left to be told of a failure
 }
 
-std::string shell_quoted(const std::string& word) {
-  std::string quoted(1, '\'');
-  for (const char letter : word) {
-    if (letter == '\'') quoted.append("'\\'");  // out of the quotes, one that stands for itself, and in again
-    quoted.push_back(letter);
-  }
-  quoted.push_back('\'');
-  return quoted;
-}
-
 std::string typed_line(const std::vector<std::string>& words) {
   constexpr std::string_view plain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+%";  // to every shell

@@ -34,9 +34,6 @@ void complain(const std::string& text);
 /// `InputError` and for what the system refuses, such as a file that cannot be written; a defect for all else.
 int exit_code_of(const std::function<int()>& program);
 
-/// A word that a shell takes as it is.
-std::string shell_quoted(const std::string& word);
-
 /// A command of the program as it is typed in a shell, quoted where it has to be.
 std::string typed_line(const std::vector<std::string>& words);
 

@@ -1,6 +1,7 @@
 #include "cli/make_replays.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <optional>

@@ -33,6 +33,7 @@
 #include "report/plan_report.hpp"
 #include "scene/input_error.hpp"
 #include "scene/seed_lot.hpp"
+#include "scene/trimmed.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -148,11 +149,6 @@ WeighedTray weighed_tray(const std::string& layout, const std::vector<Override>&
   }
 }
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') + 1 - first);
-}
-
 /// "0.17 g/s at 6.4 Hz", or "0.17 g/s +- 3 % at 6.4 Hz".
 WeighedTray weighing_of(const std::string& layout, const std::string& text) {
   constexpr const char* example = "expected a rate and where, such as \"0.17 g/s at 6.4 Hz\"";
@@ -161,10 +157,11 @@ WeighedTray weighing_of(const std::string& layout, const std::string& text) {
   std::string rate = text.substr(0, at);
   double half_width = usual_weighing_error;
   if (const auto [sign, length] = find_plus_minus(rate); sign != std::string::npos) {
-    half_width = quantity_option("--weighed", trimmed(rate.substr(sign + length)), Dimension::fraction, 1e-4, 1, "3 %");
+    half_width = quantity_option("--weighed", std::string(trimmed(rate.substr(sign + length))), Dimension::fraction,
+                                 1e-4, 1, "3 %");
     rate = trimmed(rate.substr(0, sign));
   }
-  const std::string frequency = trimmed(text.substr(at + 4));
+  const std::string frequency(trimmed(text.substr(at + 4)));
   quantity_option("--weighed", frequency, Dimension::frequency, 0.01, 1000, "6.4 Hz");
   return weighed_tray(layout, {parse_override("tray.motion.frequency=" + frequency)},
                       quantity_option("--weighed", rate, Dimension::mass_rate, 1e-9, 1e3, "0.17 g/s"), half_width);

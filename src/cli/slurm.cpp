@@ -9,6 +9,7 @@
 
 #include "cli/console.hpp"
 #include "scene/input_error.hpp"
+#include "scene/printable.hpp"
 
 namespace vibrosow {
 namespace {

@@ -101,7 +101,7 @@ void add_balls_of_clump(const Snapshot& s, const SeedLot& lot, std::size_t i, st
   double volume = 0;
   for (const ClumpDisc& ball : lot.discs) volume += 4 * pi / 3 * portable_math::pow(size * ball.radius, 3);
   for (const ClumpDisc& ball : lot.discs) {
-    const Eigen::Vector3d arm = size * (turn * Eigen::Vector3d(ball.x, ball.y, ball.z));
+    const Eigen::Vector3d arm = size * (turn * centre_of(ball));
     covering.push_back(
         {s.x[i] + arm.x(), s.y[i] + arm.y(), size * ball.radius, s.volume[i] / volume, s.z[i] + arm.z()});
   }

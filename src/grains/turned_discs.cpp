@@ -15,7 +15,7 @@ std::vector<ClumpDisc> turned_discs(const SeedLot& lot, double size, const Turn&
   if (is_solid_clump(lot)) {
     const Eigen::Matrix3d axes = rotation_matrix(turned.orientation);
     for (const ClumpDisc& ball : lot.discs) {
-      const Eigen::Vector3d arm = size * (axes * Eigen::Vector3d(ball.x, ball.y, ball.z));
+      const Eigen::Vector3d arm = size * (axes * centre_of(ball));
       discs.push_back({arm.x(), arm.y(), size * ball.radius, arm.z()});
     }
     return discs;

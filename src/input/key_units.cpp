@@ -22,7 +22,7 @@ constexpr ColumnUnit millinewton{Dimension::force, "mN", "mN"};
 constexpr ColumnUnit megapascal{Dimension::pressure, "MPa", "MPa"};
 constexpr ColumnUnit per_second{Dimension::rate, "per_s", "1/s"};
 constexpr ColumnUnit seeds_per_second{Dimension::seed_rate, "per_s", "1/s"};
-constexpr ColumnUnit degree{Dimension::angle, "degree", "degree"};
+constexpr ColumnUnit angle_degree{Dimension::angle, "degree", "degree"};
 constexpr ColumnUnit density{Dimension::density, "kg_per_m3", "kg/m3"};
 constexpr ColumnUnit bulk_density{Dimension::bulk_density, "kg_per_m3", "kg/m3"};
 constexpr ColumnUnit percent{Dimension::fraction, "percent", "%"};
@@ -53,7 +53,7 @@ constexpr std::array key_words = {
     KeyWord{"thousand_grain_weight", gram, "45 g"},
     KeyWord{"density", density},
     KeyWord{"bulk_density", bulk_density},
-    KeyWord{"angle_of_repose", degree, "25 degree"},
+    KeyWord{"angle_of_repose", angle_degree, "25 degree"},
     KeyWord{"moisture", percent, "12 %"},
     KeyWord{"shape", {}},
     KeyWord{"mass_fraction", percent, "70 %"},
@@ -90,8 +90,8 @@ constexpr std::array key_words = {
     KeyWord{"front_and_back", {}},
     KeyWord{"space", {}},
     KeyWord{"accuracy", {}},
-    KeyWord{"tilt", degree, "2 degree"},
-    KeyWord{"funnel", degree, "30 degree"},
+    KeyWord{"tilt", angle_degree, "2 degree"},
+    KeyWord{"funnel", angle_degree, "30 degree"},
     KeyWord{"left", millimetre, "10 cm"},
     KeyWord{"above", millimetre, "8 cm"},
     KeyWord{"count", {}},
@@ -104,14 +104,14 @@ constexpr std::array key_words = {
     KeyWord{"jitter", {}},
     KeyWord{"keep", {}},
     KeyWord{"kind", {}},
-    KeyWord{"direction", degree, "90 degree"},
+    KeyWord{"direction", angle_degree, "90 degree"},
     KeyWord{"amplitude", millimetre, "5 mm"},
     KeyWord{"frequency", hertz},
     KeyWord{"ramp", second, "1 s"},
     KeyWord{"stop", second, "5 s"},
     KeyWord{"stop_ramp", second, "1 s"},
-    KeyWord{"phase", degree, "90 degree"},
-    KeyWord{"angle", degree, "3 degree"},
+    KeyWord{"phase", angle_degree, "90 degree"},
+    KeyWord{"angle", angle_degree, "3 degree"},
     KeyWord{"pivot", millimetre, "10 cm"},
     KeyWord{"drill.speed", kilometre_per_hour},  // before a motion's speed
     KeyWord{"speed", rpm, "6 rpm"},

@@ -52,7 +52,7 @@ constexpr std::string_view one_quantity_needed =
 
 /// Of what is not zero, in the unit of its column: beyond any seeder, and within them rates and misfits stay finite.
 constexpr double least_value = 1e-6, most_value = 1e9;
-constexpr double shortest = 1e-3, earliest = 1e-9, latest = 1e6;  // s
+constexpr double shortest_span = 1e-3, earliest = 1e-9, latest = 1e6;  // s
 
 constexpr std::array<std::string_view, 4> label_columns = {"hole", "lot", "repeat", "note"};
 constexpr std::array<std::string_view, 2> companion_columns = {"duration_s", "time_s"};
@@ -212,7 +212,7 @@ class Reader {
       fail(row.line, header(value_), fmt::format("{} is more than 100 %", row.fields[value_]));
     const double si = stated * unit_of(quantity_->quantity);
     if (quantity_->beside != "duration_s") return si;
-    const double duration = required_number(row, *companion_, shortest, latest);
+    const double duration = required_number(row, *companion_, shortest_span, latest);
     if (duration == 0) fail(row.line, "duration_s", "must be greater than zero");
     check_range(row.line, column_of(quantity_->quantity), stated / duration, least_value, most_value);
     return si / duration;

@@ -4,6 +4,7 @@
 
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
+#include "scene/trimmed.hpp"
 
 namespace vibrosow {
 namespace {
@@ -16,12 +17,6 @@ TomlValue value_or_text(const std::string& text) {
   }
 }
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 }  // namespace
 
 Override parse_override(const std::string& key_equals_value) {
@@ -30,8 +25,8 @@ Override parse_override(const std::string& key_equals_value) {
   if (equals == std::string::npos) {
     throw InputError(where + ": expected KEY=VALUE such as \"tray.motion.frequency=12 Hz\"");
   }
-  const std::string key = trimmed(key_equals_value.substr(0, equals));
-  const std::string value = trimmed(key_equals_value.substr(equals + 1));
+  const std::string key(trimmed(key_equals_value.substr(0, equals)));
+  const std::string value(trimmed(key_equals_value.substr(equals + 1)));
   if (key.empty()) throw InputError(where + ": the key before \"=\" is missing");
   if (value.empty()) return {key, std::nullopt, where};
   return {key, value_or_text(value), where};

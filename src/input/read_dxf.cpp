@@ -16,6 +16,7 @@
 #include "scene/input_error.hpp"
 #include "scene/printable.hpp"
 #include "scene/si_units.hpp"
+#include "scene/trimmed.hpp"
 
 namespace vibrosow {
 namespace {
@@ -27,13 +28,6 @@ struct Group {
   std::string_view value;
   int line = 0;  // of the value
 };
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r";
-  const std::size_t from = text.find_first_not_of(blank);
-  return from == std::string_view::npos ? std::string_view()
-                                        : text.substr(from, text.find_last_not_of(blank) - from + 1);
-}
 
 std::optional<double> number_of(std::string_view text) {
   double value = 0;

@@ -15,6 +15,7 @@
 #include "scene/input_error.hpp"
 #include "scene/printable.hpp"
 #include "scene/si_units.hpp"
+#include "scene/trimmed.hpp"
 
 namespace vibrosow {
 namespace {
@@ -87,12 +88,6 @@ class Tokens {
   }
   std::string_view text_;
 };
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(" \t\r\n");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t\r\n") + 1 - from);
-}
 
 /// What comes before a sign; it and the sign are taken off.
 std::string_view taken_to(std::string_view& rest, char sign) {

@@ -12,6 +12,7 @@
 #include "scene/input_error.hpp"
 #include "scene/measuring_window.hpp"
 #include "scene/spaces.hpp"
+#include "scene/trimmed.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -72,11 +73,6 @@ struct Rate {
   bool is_of_seeds;
   double value;  // SI
 };
-
-std::string_view trimmed(std::string_view text) {
-  const auto from = text.find_first_not_of(' '), to = text.find_last_not_of(' ');
-  return from == std::string_view::npos ? std::string_view() : text.substr(from, to - from + 1);
-}
 
 Rate read_rate(std::string_view text) {
   const Quantity quantity = split_quantity(text);

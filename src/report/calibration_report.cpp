@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +80,7 @@ struct PointRow {
   std::size_t run = 0;             // index of the run
 };
 
-Columns<PointRow> key_columns(const std::vector<KeyRange>& keys) {
+Columns<PointRow> fitted_key_columns(const std::vector<KeyRange>& keys) {
   Columns<PointRow> columns;
   for (std::size_t k = 0; k < keys.size(); ++k)
     columns.push_back(quantity_column<PointRow>(
@@ -89,7 +90,7 @@ Columns<PointRow> key_columns(const std::vector<KeyRange>& keys) {
 }
 
 Columns<PointRow> posterior_columns(const std::vector<KeyRange>& keys, bool with_factor) {
-  Columns<PointRow> columns = key_columns(keys);
+  Columns<PointRow> columns = fitted_key_columns(keys);
   if (with_factor)
     columns.push_back(quantity_column<PointRow>(depth_factor_name, plain,
                                                 "what rates of the 2D slice are multiplied by, where it is fitted",
@@ -98,7 +99,7 @@ Columns<PointRow> posterior_columns(const std::vector<KeyRange>& keys, bool with
 }
 
 Columns<PointRow> run_columns(const std::vector<KeyRange>& keys) {
-  Columns<PointRow> columns = key_columns(keys);
+  Columns<PointRow> columns = fitted_key_columns(keys);
   append(
       columns,
       {text_column<PointRow>("conditions", "of the run",

@@ -10,12 +10,12 @@ namespace vibrosow {
 namespace {
 
 /// As TOML writes it, which JSON does too.
-std::string quoted(const std::string& text) {
+std::string toml_text(const std::string& text) {
   return nlohmann::json(text).dump();
 }
 
 std::string quantity(double value, double unit, const char* name) {
-  return quoted(fmt::format("{} {}", value / unit, name));
+  return toml_text(fmt::format("{} {}", value / unit, name));
 }
 
 /// Keys that seeds and walls have.
@@ -32,7 +32,7 @@ std::string surface_keys(const Surface& surface, const Contact& contact) {
 
 std::string law_keys(const Contact& contact) {
   const LawTraits& law = traits_of(contact.law);
-  std::string text = fmt::format("law = {}\n", quoted(std::string(law.name)));
+  std::string text = fmt::format("law = {}\n", toml_text(std::string(law.name)));
   text += law.material == LawMaterial::shell
               ? fmt::format("shell_compression = {}\n", contact.shell_compression)
               : fmt::format("youngs_modulus = {}\npoisson_ratio = {}\n", quantity(contact.youngs_modulus, 1e6, "MPa"),
@@ -70,7 +70,7 @@ std::string rolling_keys(const Contact& contact) {
 
 std::string contact_model_toml(const Contact& contact, const std::string& title,
                                const std::vector<std::pair<std::string, std::string>>& sources) {
-  std::string text = fmt::format("title = {}\n", quoted(title)) + law_keys(contact) +
+  std::string text = fmt::format("title = {}\n", toml_text(title)) + law_keys(contact) +
                      surface_keys(contact.seed, contact) + friction_keys(contact) + rolling_keys(contact);
   if (contact.drag > 0) text += fmt::format("drag = {}\n", quantity(contact.drag, 1e-3, "g/s"));
   text += fmt::format("\n[wall]\n{}", surface_keys(contact.wall, contact));
@@ -78,7 +78,7 @@ std::string contact_model_toml(const Contact& contact, const std::string& title,
     text += fmt::format("youngs_modulus = {}\npoisson_ratio = {}\n", quantity(*contact.wall_youngs_modulus, 1e6, "MPa"),
                         contact.wall_poisson_ratio);
   text += "\n[sources]\n";
-  for (const auto& [key, source] : sources) text += fmt::format("{} = {}\n", quoted(key), quoted(source));
+  for (const auto& [key, source] : sources) text += fmt::format("{} = {}\n", toml_text(key), toml_text(source));
   return text;
 }
 

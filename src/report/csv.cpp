@@ -13,7 +13,7 @@
 namespace vibrosow {
 namespace {
 
-std::string quoted(const std::string& field) {
+std::string in_quotes(const std::string& field) {
   std::string text(csv_write(nullptr, 0, field.data(), field.size()), '\0');
   csv_write(text.data(), text.size(), field.data(), field.size());
   return text;
@@ -84,7 +84,7 @@ void CsvTable::add_line(const std::vector<CsvField>& fields) {
     const std::string text = field.is_number ? field.text : defused(field.text);
     if (&field != &fields.front()) text_ += format_.separator;
     const std::size_t from = text_.size();
-    text_ += needs_quotes(text, format_.separator) ? quoted(text) : text;
+    text_ += needs_quotes(text, format_.separator) ? in_quotes(text) : text;
     if (field.is_number)
       std::replace(text_.begin() + static_cast<std::ptrdiff_t>(from), text_.end(), '.', format_.decimal);
   }

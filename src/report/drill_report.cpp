@@ -20,7 +20,7 @@ std::string numbers_text(const std::vector<int>& numbers) {
   return fmt::format("{}", fmt::join(numbers, " "));
 }
 
-constexpr const char* row_text = "number of the drill row, or all";
+constexpr const char* row_column_text = "number of the drill row, or all";
 constexpr const char* holes_text = "numbers of the holes that feed it, from the left";
 constexpr const char* note_text = "why there are no spacings; empty where there are";
 
@@ -33,7 +33,7 @@ struct RowOfRun {
 Columns<RowOfRun> rows_columns() {
   using R = const RowOfRun&;
   Columns<RowOfRun> columns = {
-      text_column<RowOfRun>("row", row_text, [](R r) { return row_name(r.row->row); }),
+      text_column<RowOfRun>("row", row_column_text, [](R r) { return row_name(r.row->row); }),
       text_column<RowOfRun>("holes", holes_text, [](R r) { return numbers_text(r.row->holes); }),
       text_column<RowOfRun>("seeds", "from these in the window, of the 2D slice or in 3D of the tray",
                             [](R r) { return r.row->seeds; })};
@@ -55,7 +55,7 @@ struct MeansRow : LayoutRow {
 Columns<MeansRow> sweep_rows_columns() {
   using R = const MeansRow&;
   Columns<MeansRow> columns = layout_columns<MeansRow>();
-  append(columns, {text_column<MeansRow>("row", row_text, [](R r) { return row_name(r.row->row); }),
+  append(columns, {text_column<MeansRow>("row", row_column_text, [](R r) { return row_name(r.row->row); }),
                    text_column<MeansRow>("holes", holes_text, [](R r) { return numbers_text(r.row->holes); }),
                    replicates_column<MeansRow>()});
   for (const RowMetric& metric : row_metrics()) {

@@ -1,6 +1,7 @@
 #include "report/page.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +20,6 @@ namespace vibrosow {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double in_mm(double metres) {
-  return 1e3 * metres;
-}
 
 Json line(const WallSegment& wall) {
   Json points = Json::array();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +13,10 @@
 #include "scene/scene.hpp"
 
 namespace vibrosow {
+
+inline double in_mm(double metres) {
+  return 1e3 * metres;
+}
 
 /// Of each remark whether it is serious, its text and, where there is something, what to do.
 nlohmann::ordered_json page_remarks(const std::vector<Remark>& remarks);

@@ -1,6 +1,7 @@
 #include "report/replay.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -8,6 +9,7 @@
 #include "report/page.hpp"
 #include "report/run_page.hpp"
 #include "scene/measuring_window.hpp"
+#include "scene/printable.hpp"
 
 namespace vibrosow {
 namespace {
@@ -15,13 +17,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_bytes = 8000000;  // of a page, that replays take
-
-/// As a word of a POSIX shell.
-std::string quoted(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) c == '\'' ? word.append("'\\''") : word.append(1, c);
-  return word + "'";
-}
 
 /// What --set is given. A text stands as it is where it is read back as a text, otherwise as TOML.
 std::string set_text(const Override& change) {
@@ -63,8 +58,8 @@ Json page_replay(Json data, const std::string& recording) {
 }
 
 std::string run_command_of(const Study& study, const Layout& layout, std::uint64_t random_seed) {
-  std::string text = "vibrosow run " + quoted(study.base.filename().string());
-  for (const Override& change : layout.overrides) text += " --set " + quoted(set_text(change));
+  std::string text = "vibrosow run " + shell_quoted(study.base.filename().string());
+  for (const Override& change : layout.overrides) text += " --set " + shell_quoted(set_text(change));
   if (random_seed != 1) text += fmt::format(" --random-seed {}", random_seed);
   return text + " --html";
 }

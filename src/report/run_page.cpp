@@ -32,10 +32,6 @@ std::string metric_text(double value) {
   return number_text(value);
 }
 
-double in_mm(double metres) {
-  return 1e3 * metres;
-}
-
 Json holes(const RunPage& page) {
   Json all = Json::array();
   for (int hole = 1; hole <= static_cast<int>(page.model.scene.tray.holes.size()); ++hole) {

@@ -15,10 +15,6 @@ namespace {
 
 using std::numbers::pi;
 
-Eigen::Vector3d centre_of(const ClumpDisc& ball) {
-  return {ball.x, ball.y, ball.z};
-}
-
 /// Calls `take(x, weight)` for the points of Gauss' rule on [from, to].
 template <unsigned points, class Take>
 void for_each_point(double from, double to, Take take) {

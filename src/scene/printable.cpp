@@ -62,6 +62,16 @@ std::string printable_lines(std::string_view text) {
   return shown(text, "\n\t");
 }
 
+std::string shell_quoted(const std::string& word) {
+  std::string quoted(1, '\'');
+  for (const char letter : word) {
+    if (letter == '\'') quoted.append("'\\'");  // out of the quotes, one that stands for itself, and in again
+    quoted.push_back(letter);
+  }
+  quoted.push_back('\'');
+  return quoted;
+}
+
 bool is_lot_name(std::string_view name) {
   const bool plain = std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';

@@ -65,6 +65,10 @@ struct ClumpDisc {
   bool operator==(const ClumpDisc&) const = default;
 };
 
+inline Eigen::Vector3d centre_of(const ClumpDisc& disc) {
+  return {disc.x, disc.y, disc.z};
+}
+
 /// How the diameters of a lot scatter, by number. Normal and lognormal are cut at `least` and `most` (as if a draw
 /// outside were drawn again); uniform lies between them; a table gives diameters and their fractions. Of a clump the
 /// diameter stands for its size: the whole seed is scaled.

@@ -13,10 +13,6 @@ namespace {
 
 using Vector4 = Eigen::Matrix<double, 4, 1>;
 
-Eigen::Vector3d centre_of(const ClumpDisc& ball) {
-  return {ball.x, ball.y, ball.z};
-}
-
 /// The larger eigenvalue of A = [c]^T G^-1 [c], of which c itself is the third eigenvector: from the trace of A and of
 /// its adjugate, |c|^2 c G c / det G.
 double yield_at(const Eigen::Vector3d& c, const Eigen::Vector3d& g) {

@@ -25,7 +25,7 @@ bool has_failed(const Run& run) {
   return run.status == RunStatus::refused || run.status == RunStatus::stopped_by_guard;
 }
 
-Run refused(std::uint64_t random_seed, const std::string& reason) {
+Run refused_run(std::uint64_t random_seed, const std::string& reason) {
   Run run;
   run.status = RunStatus::refused;
   run.random_seed = random_seed;
@@ -278,7 +278,7 @@ Run StudyRuns::run_on(const WantedRun& wanted, const Simulator& simulator, const
     };
     return simulator(model, simulation);
   } catch (const InputError& error) {
-    return refused(wanted.random_seed, error.what());
+    return refused_run(wanted.random_seed, error.what());
   }
 }
 

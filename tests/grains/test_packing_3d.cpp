@@ -54,7 +54,7 @@ std::vector<PackedBall> balls_of(const std::vector<PackedGrain>& grains, const s
     const Eigen::Matrix3d axes = rotation_matrix(grain.turned.orientation);
     if (lot.discs.empty()) balls.push_back({centre, 0.5 * grain.size * lot.diameter, i});
     for (const ClumpDisc& ball : lot.discs) {
-      const Eigen::Vector3d arm = grain.size * axes * Eigen::Vector3d(ball.x, ball.y, ball.z);
+      const Eigen::Vector3d arm = grain.size * axes * centre_of(ball);
       balls.push_back({centre + arm, grain.size * ball.radius, i});
     }
   }

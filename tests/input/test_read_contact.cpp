@@ -13,7 +13,7 @@
 #include "scene/input_error.hpp"
 #include "temporary_file.hpp"
 
-namespace vibrosow {
+namespace vibrosow::read_contact_test {
 namespace {
 
 /// A seeder with one lot, or two, around a [contact] and whatever follows it.
@@ -396,7 +396,7 @@ TEST_F(ContactsOfCrops, OfSeveralLawsAreRefused) {
 
 TEST_F(ContactsOfCrops, ALotWithoutOneIsNamed) {
   EXPECT_THAT(
-      [] { vibrosow::read(seeder("model = 'crop'\n")); },
+      [] { read_contact_test::read(seeder("model = 'crop'\n")); },
       testing::ThrowsMessage<InputError>(testing::HasSubstr("contact.model: is \"crop\", and seeds.pea has no crop")));
 }
 
@@ -412,4 +412,4 @@ TEST_F(ContactsOfCrops, AModelThatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::read_contact_test

@@ -3,9 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "scene/input_error.hpp"
+#include "scene/si_units.hpp"
 #include "temporary_file.hpp"
 
 namespace vibrosow {
@@ -14,8 +13,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-constexpr double degree = std::numbers::pi / 180;
 
 Crop crop_of(const std::string& lines) {
   const TemporaryFolder folder;

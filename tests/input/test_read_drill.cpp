@@ -5,7 +5,7 @@
 #include "input/read_scene.hpp"
 #include "temporary_file.hpp"
 
-namespace vibrosow {
+namespace vibrosow::read_drill_test {
 namespace {
 
 const std::string tray = R"([seeds.wheat]
@@ -78,4 +78,4 @@ TEST(ReadDrill, ChangesNoScene) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::read_drill_test

@@ -8,6 +8,7 @@
 #include "input/read_scene.hpp"
 #include "scene/input_error.hpp"
 #include "scene/motion.hpp"
+#include "scene/si_units.hpp"
 #include "temporary_file.hpp"
 
 namespace vibrosow::read_motion_test {
@@ -15,8 +16,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-constexpr double degree = std::numbers::pi / 180;
 
 Scene read(const TemporaryFolder& folder, const std::string& motion) {
   return read_scene(folder.write("seeder.toml", R"(

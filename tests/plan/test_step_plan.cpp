@@ -266,7 +266,7 @@ TEST(StepPlan, NoImpactOfAClumpInSpaceIsFasterThanPlanned) {
     const Orientation q = draw_orientation(random);
     double lowest = 0;
     for (const ClumpDisc& ball : lot.discs)
-      lowest = std::min(lowest, (rotation_matrix(q) * Eigen::Vector3d(ball.x, ball.y, ball.z)).y() - ball.radius);
+      lowest = std::min(lowest, (rotation_matrix(q) * centre_of(ball)).y() - ball.radius);
     Simulation run(model, start_of(model, {{{0.5, 1e-7 - lowest, 0.5}, {0, -0.01, 0}, {0, 0, 0}, q}}));
     std::int64_t touched = 0, apart = 0;
     while (apart < 10 && run.time() < 0.02) {

@@ -15,10 +15,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Eigen::Vector3d centre_of(const ClumpDisc& ball) {
-  return {ball.x, ball.y, ball.z};
-}
-
 /// By the angle `turn` about an axis through the origin (Rodrigues), then moved.
 std::vector<ClumpDisc> turned(std::vector<ClumpDisc> balls, const Eigen::Vector3d& axis, double turn,
                               const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) {

@@ -76,7 +76,7 @@ TEST(SideContacts3d, NoDirectionYieldsMoreThanATip) {
   for (const ClumpDisc& ball : clump.balls)
     for_each_direction(90, [&](const Eigen::Vector3d& n) {
       most = std::max(most, yield({ball.x, ball.y, ball.z}, n, clump.gyration2));
-      const Eigen::Vector3d surface = Eigen::Vector3d(ball.x, ball.y, ball.z) + ball.radius * n;
+      const Eigen::Vector3d surface = centre_of(ball) + ball.radius * n;
       for_each_direction(
           12, [&](const Eigen::Vector3d& t) { furthest = std::max(furthest, yield(surface, t, clump.gyration2)); });
     });

@@ -127,8 +127,7 @@ std::vector<OwnBall> balls_of(const Model& model, const Grains& grains) {
       turned = Eigen::AngleAxisd(grains.angle[i], Eigen::Vector3d::UnitZ()).toRotationMatrix();
     for (std::size_t k = 0; k < lot.discs.size(); ++k) {
       const ClumpDisc& disc = lot.discs[k];
-      balls.push_back(
-          {i, grains.id[i], k, centre + size * (turned * Eigen::Vector3d(disc.x, disc.y, disc.z)), size * disc.radius});
+      balls.push_back({i, grains.id[i], k, centre + size * (turned * centre_of(disc)), size * disc.radius});
     }
   }
   return balls;

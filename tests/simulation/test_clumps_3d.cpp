@@ -186,16 +186,15 @@ std::vector<double> rocking_state(Integrator scheme, double dt, double time) {
   scene.numerics.integrator = scheme;
   const Model model = with_step(prepare(scene), dt);
   // As given: the axes of the principal frame follow from where three of the balls came to stand.
-  const auto at = [](const ClumpDisc& ball) { return Eigen::Vector3d(ball.x, ball.y, ball.z); };
   const auto frame = [&](const std::vector<ClumpDisc>& b) {
     Eigen::Matrix3d edges;
-    edges << at(b[1]) - at(b[0]), at(b[2]) - at(b[0]), at(b[3]) - at(b[0]);
+    for (int i = 0; i < 3; ++i) edges.col(i) = centre_of(b[static_cast<std::size_t>(i) + 1]) - centre_of(b[0]);
     return edges;
   };
   const Eigen::Matrix3d r = frame(balls) * frame(lot.discs).inverse();
   const double w = 0.5 * std::sqrt(1 + r.trace());
   const Orientation q{w, (r(2, 1) - r(1, 2)) / (4 * w), (r(0, 2) - r(2, 0)) / (4 * w), (r(1, 0) - r(0, 1)) / (4 * w)};
-  const Eigen::Vector3d first = rotation_matrix(of_unit_length(q)) * at(lot.discs[0]);
+  const Eigen::Vector3d first = rotation_matrix(of_unit_length(q)) * centre_of(lot.discs[0]);
   const PlacedClump clump{{0.5, 3e-3 - 1e-6 - first.y(), 0.5}, {0, 1e-4, 0}, {0.02, 0.5, 0.01}, q};
   Simulation run(model, start_of(model, {clump}));
   run.steps(std::llround(time / dt));

@@ -13,8 +13,9 @@
 namespace vibrosow {
 namespace {
 
-constexpr double diameter = 2 * Bench::radius, speed = 1, dt = 2e-6;  // m, m/s, s; a margin lasts hundreds of steps
-constexpr double largest_gap = 2.3;                                   // diameters: beyond the wide list
+constexpr double ball_diameter = 2 * Bench::radius, speed = 1,
+                 dt = 2e-6;          // m, m/s, s; a margin lasts hundreds of steps
+constexpr double largest_gap = 2.3;  // diameters: beyond the wide list
 constexpr int axis_x = 0, axis_y = 1, axis_z = 2;
 
 std::vector<int> axes_of(Space space) {
@@ -27,13 +28,13 @@ INSTANTIATE_TEST_SUITE_P(Spaces, ListsAtTheirMargin, testing::ValuesIn(both_spac
 /// 0.01, 0.02, ... m, so that at every renewal some are just within a margin and some just beyond.
 std::vector<double> gaps() {
   std::vector<double> all;
-  for (double gap = 0.01; gap < largest_gap; gap += 0.01) all.push_back(gap * diameter);
+  for (double gap = 0.01; gap < largest_gap; gap += 0.01) all.push_back(gap * ball_diameter);
   return all;
 }
 
 /// Steps in which both sides of a gap come half of it nearer, and some more.
 std::int64_t steps_to_close() {
-  return static_cast<std::int64_t>((0.5 * largest_gap + 0.05) * diameter / (speed * dt));
+  return static_cast<std::int64_t>((0.5 * largest_gap + 0.05) * ball_diameter / (speed * dt));
 }
 
 // Both grains move half of what a margin allows for.
@@ -49,7 +50,7 @@ TEST_P(ListsAtTheirMargin, MissNoPairThatFliesAtEachOther) {
       const int number = static_cast<int>(k);
       const Eigen::Vector3d middle = Eigen::Vector3d::Constant(0.5) + (0.05 * (number % in_row) - 0.44) * along +
                                      (0.02 * (number / in_row) - 0.44) * across;
-      const Eigen::Vector3d arm = 0.5 * (diameter + all[k]) * along;
+      const Eigen::Vector3d arm = 0.5 * (ball_diameter + all[k]) * along;
       bench.place(middle - arm, speed * along).place(middle + arm, -speed * along);
     }
     Simulation& run = bench.start(dt);
@@ -58,9 +59,9 @@ TEST_P(ListsAtTheirMargin, MissNoPairThatFliesAtEachOther) {
       ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
       for (std::size_t k = 0; k < all.size(); ++k) {
         const double apart = (place_of(run.grains(), 2 * k) - place_of(run.grains(), 2 * k + 1)).norm();
-        if (apart >= diameter) continue;
+        if (apart >= ball_diameter) continue;
         met[k] = true;
-        ASSERT_GT(force_on(run, 2 * k).norm(), 0) << "gap of " << all[k] / diameter << " diameters, step " << step;
+        ASSERT_GT(force_on(run, 2 * k).norm(), 0) << "gap of " << all[k] / ball_diameter << " diameters, step " << step;
       }
     }
     EXPECT_TRUE(std::ranges::all_of(met, [](bool one) { return one; }));
@@ -87,7 +88,7 @@ TEST_P(ListsAtTheirMargin, MissNoPairThatFliesAtEachOtherAcrossTheSeam) {
     const std::vector<double> all = gaps();
     for (std::size_t k = 0; k < all.size(); ++k) {
       Eigen::Vector3d right(0.5, 0.02 + 0.0105 * static_cast<double>(k), 0.5), left = right;
-      right[axis] = 0.5 * (diameter + all[k]), left[axis] = 1 - right[axis];
+      right[axis] = 0.5 * (ball_diameter + all[k]), left[axis] = 1 - right[axis];
       bench.place(left, speed * along).place(right, -speed * along);
     }
     Simulation& run = bench.start(dt);
@@ -95,10 +96,10 @@ TEST_P(ListsAtTheirMargin, MissNoPairThatFliesAtEachOtherAcrossTheSeam) {
     for (std::int64_t step = 0; step < steps_to_close(); ++step) {
       ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
       for (std::size_t k = 0; k < all.size(); ++k) {
-        if (around(place_of(run.grains(), 2 * k) - place_of(run.grains(), 2 * k + 1), axis).norm() >= diameter)
+        if (around(place_of(run.grains(), 2 * k) - place_of(run.grains(), 2 * k + 1), axis).norm() >= ball_diameter)
           continue;
         ++met;
-        ASSERT_GT(force_on(run, 2 * k).norm(), 0) << "gap of " << all[k] / diameter << " diameters, step " << step;
+        ASSERT_GT(force_on(run, 2 * k).norm(), 0) << "gap of " << all[k] / ball_diameter << " diameters, step " << step;
       }
     }
     EXPECT_GT(met, all.size());
@@ -156,7 +157,7 @@ TEST_P(ListsAtTheirMargin, MissNoWallOfAnotherVesselThatComesNearer) {
         const double left = wall.side * (at - place_of(run.grains(), k)[axis]) - Bench::radius;
         if (left >= 0) continue;
         ++met;
-        ASSERT_GT(force_on(run, k).norm(), 0) << "gap of " << all[k] / diameter << " diameters, step " << step;
+        ASSERT_GT(force_on(run, k).norm(), 0) << "gap of " << all[k] / ball_diameter << " diameters, step " << step;
       }
     }
     EXPECT_GT(met, all.size());
@@ -186,15 +187,15 @@ void expect_felt_from_the_first_touch(const Scene& scene, const Eigen::Vector3d&
     ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
     if (distance_to_walls(run, 0) >= Bench::radius) continue;
     met = true;
-    ASSERT_GT(force_on(run, 0).norm(), 0) << "gap of " << gap / diameter << " diameters, step " << step;
+    ASSERT_GT(force_on(run, 0).norm(), 0) << "gap of " << gap / ball_diameter << " diameters, step " << step;
   }
-  EXPECT_TRUE(met) << gap / diameter;
+  EXPECT_TRUE(met) << gap / ball_diameter;
 }
 
 std::vector<double> some_gaps() {
   std::vector<double> all;
-  for (double gap = 0.01; gap < 0.2; gap += 0.01) all.push_back(gap * diameter);
-  for (double gap = 0.6; gap < 2.1; gap += 0.1) all.push_back(gap * diameter);
+  for (double gap = 0.01; gap < 0.2; gap += 0.01) all.push_back(gap * ball_diameter);
+  for (double gap = 0.6; gap < 2.1; gap += 0.1) all.push_back(gap * ball_diameter);
   return all;
 }
 
