@@ -9,8 +9,10 @@ namespace vibrosow {
 namespace {
 
 /// What tests/web tries on the pages' functions too.
-nlohmann::json cases() {
-  return nlohmann::json::parse(std::ifstream(VIBROSOW_SOURCE_DIR "/tests/report/numbers.json"));
+const nlohmann::json& cases() {
+  static const nlohmann::json read =
+      nlohmann::json::parse(std::ifstream(VIBROSOW_SOURCE_DIR "/tests/report/numbers.json"));
+  return read;
 }
 
 TEST(NumberText, HasAsManyDigitsAsAreRead) {

@@ -183,7 +183,8 @@ TEST(Space, TwistingBrakesABallThatSpinsOnTheSpot) {
     scene.contact.wall.twisting_friction = twisting;
     scene.contact.slip_speed = 1e-4;
     const Model model = prepare_to_run(scene);
-    SimulationState state = start_of(model, {{{0.015, radius * (1 - scene.contact.shell_compression), 0.013}, {}}});
+    SimulationState state =
+        start_of(model, {{{0.015, radius * (1 - scene.contact.shell_compression), 0.013}, {0, 0, 0}}});
     state.grains.omega_y[0] = spin;
     Simulation run(model, std::move(state));
     run.run_until(until);
