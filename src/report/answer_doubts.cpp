@@ -1,6 +1,7 @@
 #include "report/answer_doubts.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "report/decision_report.hpp"
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 
 #include "answer/answer.hpp"
 #include "report/answer_doubts.hpp"

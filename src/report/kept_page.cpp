@@ -1,6 +1,7 @@
 #include "report/kept_page.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "files/atomic_file.hpp"
 #include "files/whole_file.hpp"

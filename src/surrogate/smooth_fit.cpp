@@ -1,5 +1,6 @@
 #include "surrogate/smooth_fit.hpp"
 
+#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -32,7 +33,7 @@ double SmoothFit::covariance(const std::vector<double>& one, const std::vector<d
   return scales[shape_.scale] * spread_ * (1 + distance + distance * distance / 3) * portable_math::exp(-distance);
 }
 
-/// But for a constant; leaves the factors and weights of the shape.
+/// But for a constant; leaves the root and weights of the shape.
 double SmoothFit::log_likelihood() {
   const auto count = static_cast<Eigen::Index>(seen_.size());
   Eigen::MatrixXd matrix(count, count);
@@ -44,10 +45,11 @@ double SmoothFit::log_likelihood() {
       matrix(i, j) = covariance(one.place, seen_[static_cast<std::size_t>(j)].place);
     matrix(i, i) += one.variance + least_ridge * spread_;
   }
-  factors_.compute(matrix);  // of the lower half
-  weights_ = factors_.solve(values);
+  const Eigen::LLT<Eigen::MatrixXd> factors(matrix);  // of the lower half
+  root_ = factors.matrixLLT();
+  weights_ = factors.solve(values);
   double log_root = 0;  // of the determinant
-  for (Eigen::Index i = 0; i < count; ++i) log_root += portable_math::log(factors_.matrixLLT()(i, i));
+  for (Eigen::Index i = 0; i < count; ++i) log_root += portable_math::log(root_(i, i));
   return -0.5 * values.dot(weights_) - log_root;
 }
 
@@ -83,7 +85,7 @@ void SmoothFit::fit(std::vector<SeenValue> seen) {
 SmoothFit::Prediction SmoothFit::at(const std::vector<double>& place) const {
   Eigen::VectorXd with(weights_.size());
   for (Eigen::Index i = 0; i < with.size(); ++i) with(i) = covariance(place, seen_[static_cast<std::size_t>(i)].place);
-  const Eigen::VectorXd known = factors_.matrixL().solve(with);
+  const Eigen::VectorXd known = root_.triangularView<Eigen::Lower>().solve(with);
   const double variance = scales[shape_.scale] * spread_ - known.squaredNorm();
   return {middle_ + with.dot(weights_), std::sqrt(std::max(0.0, variance))};
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -39,8 +39,8 @@ class SmoothFit {
   Shape shape_;
   std::size_t shaped_for_ = 0;  // values
   std::vector<SeenValue> seen_;
-  double middle_ = 0, spread_ = 1;                                        // mean and variance of the values
-  Eigen::LLT<Eigen::MatrixXd> factors_{Eigen::MatrixXd::Identity(1, 1)};  // an empty one cannot be copied
+  double middle_ = 0, spread_ = 1;  // mean and variance of the values
+  Eigen::MatrixXd root_;            // its lower half: Cholesky's factor of the covariances
   Eigen::VectorXd weights_;
 };
 

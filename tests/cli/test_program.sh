@@ -411,7 +411,7 @@ set -m
 for signal in INT TERM HUP; do
   "$program" sweep long.toml --out long --jobs 1 --quiet &
   pid=$!
-  sleep 1.5
+  sleep 1
   kill -$signal $pid
   wait $pid
   [ $? -eq 130 ] || fail "SIG$signal does not end with 130"

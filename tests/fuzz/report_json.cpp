@@ -8,6 +8,8 @@
 #include "scene/input_error.hpp"
 #include "scene/scene_json.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace vibrosow {
 namespace {
 

@@ -1,5 +1,7 @@
 #include "report/study_page.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "page_data.hpp"
 #include "scene/scene_json.hpp"
 

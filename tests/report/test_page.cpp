@@ -1,6 +1,7 @@
 #include "report/page.hpp"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,7 @@
 #include "report/page_charts.hpp"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "scene/input_error.hpp"
 

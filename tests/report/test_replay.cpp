@@ -1,6 +1,7 @@
 #include "report/replay.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "page_data.hpp"
 #include "report/base64.hpp"

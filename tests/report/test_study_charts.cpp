@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "report/study_page.hpp"
 #include "scene/input_error.hpp"

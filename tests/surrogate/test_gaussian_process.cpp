@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
@@ -96,7 +95,7 @@ TEST(Kriging, IsTheTextbooks) {
   }
   right(12) = 1;
   right.tail(3) = at;
-  const VectorXd weights = system.fullPivLu().solve(right);
+  const VectorXd weights = system.inverse() * right;
   const GaussianPrediction prediction = process.at(at.transpose());
   EXPECT_NEAR(prediction.mean(0), weights.head(12).dot(made.values), 1e-9);
   EXPECT_NEAR(prediction.variance(0), 1.3 - weights.dot(right), 1e-9);
@@ -167,7 +166,8 @@ TEST(GaussianProcess, TakesTheMeanOfAVarianceThatItDoesNotKnow) {
     trend.row(i) << 1, points(i, 0);
     values(i) = 3 + 2 * points(i, 0) + (i % 2 == 0 ? 0.1 : -0.1);
   }
-  const VectorXd residuals = values - trend * trend.colPivHouseholderQr().solve(values);
+  const MatrixXd normal = trend.transpose() * trend;
+  const VectorXd residuals = values - trend * (normal.inverse() * (trend.transpose() * values));
   const double expected = residuals.squaredNorm() / (count - 2 - 2);
   const GaussianProcess process(points, values);
   EXPECT_NEAR(process.covariance().signal + process.covariance().noise, expected, 0.02 * expected);

@@ -162,7 +162,7 @@ TEST(Clump, AnImpactOfAClumpOfBallsIsThatOfARigidBody) {
           double lowest = 1;
           Eigen::Vector3d arm = Eigen::Vector3d::Zero();  // of the ball that touches
           for (const ClumpDisc& ball : lot.discs) {
-            const Eigen::Vector3d at = axes * Eigen::Vector3d(ball.x, ball.y, ball.z);
+            const Eigen::Vector3d at = axes * centre_of(ball);
             if (at.y() - ball.radius < lowest) lowest = at.y() - ball.radius, arm = at;
           }
           const Eigen::Vector3d spin(3, -20, 10), up(0, 1, 0);
@@ -214,8 +214,9 @@ TEST(Clump, EachDiscHasTheStiffnessOfItsOwnRadius) {
       model.gravity = {0, 0};
       for (const ClumpDisc& disc : lot.discs) {
         // Turned so that this disc is the lowest, it alone touches the floor.
-        const Eigen::Vector3d arm(disc.x, disc.y, disc.z);
-        const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(arm, -Eigen::Vector3d::UnitY());
+        const Eigen::Vector3d arm = centre_of(disc), down = -Eigen::Vector3d::UnitY(), across = arm.cross(down);
+        const Eigen::Quaterniond turn =
+            Eigen::Quaterniond(arm.norm() + arm.dot(down), across.x(), across.y(), across.z()).normalized();
         const double radius = size * disc.radius, overlap = 1e-6;
         Grains grains = no_grains(model);
         grains.add(Eigen::Vector3d(0.5, size * arm.norm() + radius - overlap, 0.5), Eigen::Vector3d::Zero(), 0,
