@@ -204,6 +204,17 @@ def check_pictures():
             expect(picture in linked, f"{picture.relative_to(ROOT)}: no document shows it")
 
 
+def check_anchors():
+    """Each point of the pages' table that is met names the test that tries it."""
+    rows = [line.strip("| ").split("|") for line in (ROOT / "reports/pages/anchors.md").read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
+    for _, what, here, *tried in rows[1:]:
+        file, _, title = (tried[0] if tried else "").strip().partition(": ")
+        expect(file or here.strip().startswith("no"), f"anchors.md: {what.strip()}: no test tries it")
+        if file:
+            tests = (ROOT / "tests/web" / file).read_text(encoding="utf-8")
+            expect(f"test('{title}'" in tests or f'test("{title}"' in tests, f"anchors.md: {file} has no test '{title}'")
+
+
 def check_citation():
     """CITATION.cff has the fields that its schema (1.2.0) requires, the program's version and licence, and the papers of theory.md."""
     text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
@@ -234,6 +245,7 @@ def main():
     check_accuracy_levels()
     check_tables()
     check_citation()
+    check_anchors()
     check_pictures()
     front = (ROOT / "README.md").read_text(encoding="utf-8")
     check_seeder_of_front_page(program, front)

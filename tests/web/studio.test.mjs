@@ -222,6 +222,26 @@ test('holes and shake change while it runs: clock and picture go on, rates begin
   assert.ok(!(await place.getByText(/Starts again/).count()));
 }));
 
+test('a run follows a slider, and a hole, that is still held', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  await page.waitForFunction(() => Number(document.querySelector('canvas').dataset.time) > 0.5);
+  const changedAfter = (then) => page.waitForFunction((time) => Number(/^Changed at ([0-9.]+) s/.exec(document.querySelector('.panel-head .hint').textContent)?.[1]) > time, then);
+  const held = async (target, x, y) => {
+    const time = Number(await place.locator('canvas').getAttribute('data-time'));
+    await target.scrollIntoViewIfNeeded();
+    const box = await target.boundingBox();
+    await page.mouse.move(box.x + x(box.width), box.y + y(box.height));
+    await page.mouse.down();
+    await page.mouse.move(box.x + x(box.width) + 12, box.y + y(box.height), { steps: 3 });
+    await changedAfter(time);
+    await page.mouse.up();
+    await status(place, 'playing');
+  };
+  await held(place.getByRole('slider', { name: 'Frequency, Hz' }), (width) => width / 2, (height) => height / 2);
+  await held(handle(place, 2), (width) => width / 2, (height) => height - 20);
+  assert.ok(!(await place.getByText(/Starts again/).count()));
+}));
+
 // However slow the machine: no time that is shown is missed. Call what is given to wait until a time is less than one before.
 async function restarts(page) {
   await page.evaluate(() => {

@@ -17,6 +17,7 @@ import { asFastAsItCan, realTime, Transport } from './transport.mjs';
 import { TrayView } from './tray_view.mjs';
 
 const settling = 250;  // ms after a gesture, before its layout is simulated
+const between = 300;   // ms between the changes that a run takes while a gesture lasts
 const readable = 4000; // ms that it stays said why a run started again
 const still = matchMedia('(prefers-reduced-motion: reduce)');
 
@@ -75,7 +76,7 @@ export class Bench {
     this.course.open(sceneOf(this.layout, this.data.crops), this.pace);
   }
 
-  /** Takes another layout. It is simulated once the gesture that makes it has ended: the run goes on with it, or starts again. */
+  /** Takes another layout. A run goes on with it, also while the gesture that makes it lasts; where it cannot, it starts again once that has ended. */
   change(layout, ended = true) {
     const moved = layout !== this.layout, other = layout.seeder !== this.layout.seeder;
     this.layout = layout;
@@ -84,16 +85,25 @@ export class Bench {
     this.news = '';
     if (other) this.course.leaveSeeder();
     else if (moved && !this.course.isUnderWay && this.course.state.status !== 'changed') this.course.leave();
-    if (ended && this.course.isUnderWay) this.goOn();
+    if (this.course.isUnderWay) this.goOn(ended);
     else if (ended) this.opening = setTimeout(() => this.restart(), settling);
     if (moved) this.told('layout');
     if (ended) this.told('made');
   }
 
-  async goOn() {
-    const { layout } = this;
-    const obstacle = await this.course.change(sceneOf(layout, this.data.crops));
-    if (obstacle && layout === this.layout) this.startAgain(obstacle);
+  // One change at a time, and of those that come meanwhile the last.
+  async goOn(ended) {
+    this.due = { ended: ended || Boolean(this.due?.ended) };
+    if (this.isGoingOn) return;
+    this.isGoingOn = true;
+    while (this.due) {
+      const { layout, due } = this;
+      this.due = null;
+      if (this.taken?.layout !== layout) this.taken = { layout, obstacle: await this.course.change(sceneOf(layout, this.data.crops)) };
+      if (due.ended && this.taken.obstacle && layout === this.layout) this.startAgain(this.taken.obstacle);
+      if (!due.ended) await new Promise((wakes) => { setTimeout(wakes, between); });
+    }
+    this.isGoingOn = false;
   }
 
   startAgain(obstacle) {
