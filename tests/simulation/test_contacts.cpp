@@ -69,6 +69,11 @@ struct Case {
   Space space;
   Sides sides;
   bool clumps;
+  // Not its bytes, of which some are never set.
+  friend void PrintTo(const Case& one, std::ostream* out) {
+    *out << (one.space == Space::three_dimensional ? "3D" : "2D") << (one.sides == Sides::periodic ? ", periodic" : "")
+         << (one.clumps ? ", clumps" : "");
+  }
 };
 class ContactsOf : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Contacts, ContactsOf,
