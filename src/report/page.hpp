@@ -14,6 +14,7 @@
 
 namespace vibrosow {
 
+/// A length (m) in mm.
 inline double in_mm(double metres) {
   return 1e3 * metres;
 }

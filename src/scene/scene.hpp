@@ -65,6 +65,7 @@ struct ClumpDisc {
   bool operator==(const ClumpDisc&) const = default;
 };
 
+/// m, in the frame of its clump.
 inline Eigen::Vector3d centre_of(const ClumpDisc& disc) {
   return {disc.x, disc.y, disc.z};
 }

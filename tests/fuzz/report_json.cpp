@@ -1,14 +1,14 @@
 // What a report's page shows, as it is read back for its charts and its scene. What has another form than ours is told
 // by exceptions of the JSON library, which the commands tell in their words.
 
+#include <nlohmann/json.hpp>
+
 #include "fuzz/try_bytes.hpp"
 #include "plan/model.hpp"
 #include "report/page_charts.hpp"
 #include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_json.hpp"
-
-#include <nlohmann/json.hpp>
 
 namespace vibrosow {
 namespace {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/input_error.hpp"
+#include "scene/trimmed.hpp"
 
 namespace vibrosow {
 namespace {
@@ -18,6 +19,19 @@ TEST(Printable, KeepsTextAndShowsTheRestAsBytes) {
   EXPECT_EQ(printable("\xc0\xaf\xed\xa0\x80\xf8\x90\x90\x90\x90"),
             "\\xc0\\xaf\\xed\\xa0\\x80\\xf8\\x90\\x90\\x90\\x90");
   EXPECT_EQ(printable("\xe4\xb8"), "\\xe4\\xb8");
+}
+
+TEST(ShellQuoted, IsOneWordOfAShell) {
+  EXPECT_EQ(shell_quoted("tray.holes.width=3 mm"), "'tray.holes.width=3 mm'");
+  EXPECT_EQ(shell_quoted("it's $HOME"), "'it'\\''s $HOME'");
+  EXPECT_EQ(shell_quoted(""), "''");
+}
+
+TEST(Trimmed, LosesWhatIsBlankOnEitherSideAlone) {
+  EXPECT_EQ(trimmed(" \t a b\r\n"), "a b");
+  EXPECT_EQ(trimmed("a"), "a");
+  EXPECT_EQ(trimmed(" \n\t "), "");
+  EXPECT_EQ(trimmed(""), "");
 }
 
 TEST(Printable, IsAlwaysJsonAndChangesNothingTwice) {

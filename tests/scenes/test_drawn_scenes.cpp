@@ -466,7 +466,7 @@ std::string depends_on_margins(const DrawnScene& drawn) {
 }
 
 TEST(DrawnScene, IsTheSameWithOtherMarginsOfItsLists) {
-  expect_of_drawn_scenes(20, depends_on_margins);
+  expect_of_drawn_scenes(30, depends_on_margins);
 }
 
 // ---- walls ----

@@ -86,7 +86,7 @@ export class Bench {
     if (other) this.course.leaveSeeder();
     else if (moved && !this.course.isUnderWay && this.course.state.status !== 'changed') this.course.leave();
     if (this.course.isUnderWay) this.goOn(ended);
-    else if (ended) this.opening = setTimeout(() => this.restart(), settling);
+    else if (ended) this.openSoon();
     if (moved) this.told('layout');
     if (ended) this.told('made');
   }
@@ -96,22 +96,34 @@ export class Bench {
     this.due = { ended: ended || Boolean(this.due?.ended) };
     if (this.isGoingOn) return;
     this.isGoingOn = true;
-    while (this.due) {
-      const { layout, due } = this;
-      this.due = null;
-      if (this.taken?.layout !== layout) this.taken = { layout, obstacle: await this.course.change(sceneOf(layout, this.data.crops)) };
-      if (due.ended && this.taken.obstacle && layout === this.layout) this.startAgain(this.taken.obstacle);
-      if (!due.ended) await new Promise((wakes) => { setTimeout(wakes, between); });
+    try {
+      while (this.due) await this.takeDue();
+    } finally {
+      this.isGoingOn = false;
     }
-    this.isGoingOn = false;
+  }
+
+  async takeDue() {
+    const { layout, due } = this;
+    this.due = null;
+    if (this.course.isUnderWay && this.taken?.layout !== layout) this.taken = { layout, obstacle: await this.course.change(sceneOf(layout, this.data.crops)) };
+    if (due.ended && layout === this.layout) {
+      if (!this.course.isUnderWay) this.openSoon();  // it came to its end meanwhile
+      else if (this.taken.obstacle) this.startAgain(this.taken.obstacle);
+    }
+    if (!due.ended) await new Promise((wakes) => { setTimeout(wakes, between); });
+  }
+
+  openSoon() {
+    clearTimeout(this.opening);
+    this.opening = setTimeout(() => this.restart(), settling);
   }
 
   startAgain(obstacle) {
     this.news = startsAgain(obstacle);
     this.course.leave();
-    clearTimeout(this.opening);
+    this.openSoon();
     clearTimeout(this.silence);
-    this.opening = setTimeout(() => this.restart(), settling);
     this.silence = setTimeout(() => this.hush(), readable);
   }
 
@@ -224,6 +236,7 @@ export class Bench {
   }
 
   close() {
+    this.due = null;
     clearTimeout(this.opening);
     clearTimeout(this.silence);
     this.course.close();
