@@ -38,7 +38,8 @@ class Answer:
         doubts = self.info.get("doubts")
         if doubts is None and (self.folder / "report.json").exists():  # of commands whose page alone has them, without kind and runs
             doubts = read_json(self.folder / "report.json").get("remarks", [])
-        return pandas.DataFrame(doubts or [], columns=DOUBTS)
+        named = "settings" if self.command == "accuracy" else "layouts"  # what the numbers are of
+        return pandas.DataFrame(doubts or [], columns=[named if column == "layouts" else column for column in DOUBTS])
 
     def table(self, name):
         """Another CSV file of the folder, such as "posterior.csv" or "accuracy_runs.csv"; None where there is none."""

@@ -12,16 +12,15 @@ double cost_of(const AccuracyRow& row) {
 
 /// What one setting's runs gave.
 void take_runs(AccuracyRow& row, const std::vector<AccuracyRun>& runs, std::size_t setting) {
-  std::vector<double> rates;
-  double made = 0, resolution = 0;
+  std::vector<CountedRate> rates;
+  double made = 0;
   for (const AccuracyRun& run : runs) {
     if (run.setting != setting) continue;
     if (!run.mass_rate) {
       row.refused = run.refused;
       continue;
     }
-    rates.push_back(*run.mass_rate);
-    resolution = std::max(resolution, resolution_of(*run.mass_rate, run.seeds));
+    rates.push_back({*run.mass_rate, run.seeds});
     row.grain_steps += run.grain_steps;
     row.cpu_time += run.cpu_time;
     made += run.made();
@@ -31,7 +30,7 @@ void take_runs(AccuracyRow& row, const std::vector<AccuracyRun>& runs, std::size
   row.replicates = static_cast<int>(rates.size());
   row.grain_steps /= count;
   row.cpu_time /= std::max(1.0, made);
-  row.mass_rate = mean_with_interval(rates, resolution);
+  row.mass_rate = mean_of_rates(rates);
 }
 
 std::size_t finest(const std::vector<AccuracyRow>& rows) {

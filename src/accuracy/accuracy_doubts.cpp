@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "scene/si_units.hpp"
 #include "study/layout_doubts.hpp"
@@ -48,10 +49,6 @@ std::vector<LayoutDoubts> doubts_of_runs(const std::vector<AccuracyRun>& runs, c
 
 }  // namespace
 
-std::vector<SharedDoubt> doubts_about(const std::vector<AccuracyRun>& runs, const Scene& scene) {
-  return shared_doubts(doubts_of_runs(runs, scene));
-}
-
 std::vector<SharedDoubt> doubts_about(const AccuracyResult& result, const Scene& scene) {
   std::vector<LayoutDoubts> doubts = doubts_of_runs(result.runs, scene);
   std::vector<CountedDoubt>& of_all = doubts.back().doubts;
@@ -65,6 +62,10 @@ std::vector<SharedDoubt> doubts_about(const AccuracyResult& result, const Scene&
   if (!result.fit)
     add(DoubtKind::no_limit,
         "errors are against the finest setting, which errs too: the runs do not determine the limit");
+  if (result.depth)
+    for (const auto& [space, of_space] : {std::pair("2D", &result.depth->doubts_2d), {"3D", &result.depth->doubts_3d}})
+      for (const CountedDoubt& doubt : *of_space)
+        add(doubt.kind, fmt::format("of the runs in {} for the error of the depth: {}", space, doubt_text(doubt)));
   if (scene.space == Space::two_dimensional && !result.depth)
     add(DoubtKind::depth_left_out, "running the tray in 2D is an error of its own, which is not in these");
   return shared_doubts(doubts);

@@ -3,18 +3,20 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "study/layout_doubts.hpp"
+
 namespace vibrosow {
 namespace {
 
 /// Of the whole tray; none where a run has no rate.
-std::optional<MeanWithInterval> mean_rate(const std::vector<Evaluation>& runs, std::size_t from, std::size_t to) {
-  std::vector<double> rates;
-  for (std::size_t k = from; k < to; ++k) {
-    const Evaluation& run = runs[k];
+std::optional<MeanWithInterval> mean_rate(const std::vector<Evaluation>& runs) {
+  std::vector<CountedRate> rates;
+  for (const Evaluation& run : runs) {
     if (!run.finished() || run.outside_the_model) return std::nullopt;
-    rates.push_back(find_row(run.outflow, "all", "all")->mass_rate * run.outflow.depth_factor.value());
+    const double mass_rate = find_row(run.outflow, "all", "all")->mass_rate;
+    rates.push_back({mass_rate * run.outflow.depth_factor.value(), run.outflow.seeds()});
   }
-  return mean_with_interval(rates);
+  return mean_of_rates(rates);
 }
 
 }  // namespace
@@ -28,13 +30,13 @@ std::optional<DepthError> measure_depth_error(const Scene& plane_scene, const Sc
     for (int k = 0; k < replicates; ++k)
       jobs.push_back({model, options.first_random_seed + static_cast<std::uint64_t>(k)});
   const std::vector<Evaluation> runs = run_jobs(jobs, simulator, options.runs);
-  const std::size_t half = runs.size() / 2;
-  const auto plane = mean_rate(runs, 0, half), space = mean_rate(runs, half, runs.size());
-  if (!plane || !space || !(space->mean > 0)) return std::nullopt;
+  const std::vector<Evaluation> in_2d(runs.begin(), runs.begin() + replicates);
+  const std::vector<Evaluation> in_3d(runs.begin() + replicates, runs.end());
+  const auto plane = mean_rate(in_2d), space = mean_rate(in_3d);
+  if (!plane || !space || !(plane->mean > 0) || !(space->mean > 0)) return std::nullopt;
   const double ratio = plane->mean / space->mean;
-  const double of_plane = plane->mean > 0 ? *plane->half_width_95 / plane->mean : 0;
-  const double band = ratio * std::hypot(of_plane, *space->half_width_95 / space->mean);
-  return DepthError{*plane, *space, {100 * (ratio - 1), 100 * band}};
+  const double band = ratio * std::hypot(*plane->half_width_95 / plane->mean, *space->half_width_95 / space->mean);
+  return DepthError{*plane, *space, {100 * (ratio - 1), 100 * band}, doubts_of_runs(in_2d), doubts_of_runs(in_3d)};
 }
 
 }  // namespace vibrosow

@@ -50,12 +50,11 @@ Eigen::Index rank_of(const Eigen::MatrixXd& columns) {
   return qr.rank();
 }
 
-/// kg/s, by the run whose seeds are the heaviest.
-double scatter_of_counting(const std::vector<AccuracyRun>& runs) {
-  double of_a_seed = 0;
+std::vector<CountedRate> rates_of(const std::vector<AccuracyRun>& runs) {
+  std::vector<CountedRate> rates;
   for (const AccuracyRun& run : runs)
-    if (run.mass_rate && run.seeds > 0) of_a_seed = std::max(of_a_seed, *run.mass_rate / run.seeds);
-  return of_a_seed / std::sqrt(12);
+    if (run.mass_rate) rates.push_back({*run.mass_rate, run.seeds});
+  return rates;
 }
 
 /// A sum of squares and its degrees of freedom.
@@ -242,7 +241,7 @@ void ErrorFit::judge(const std::vector<AccuracyRun>& runs, const Eigen::VectorXd
       spread_ = std::sqrt(lack), spread_freedom_ = lack_freedom;
     }
   }
-  const double least_scatter = scatter_of_counting(runs);
+  const double least_scatter = scatter_of_counting(rates_of(runs));
   scatter_ = std::max(scatter_, least_scatter);
   spread_ = std::max(spread_, least_scatter);
 }

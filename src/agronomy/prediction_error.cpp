@@ -74,7 +74,8 @@ double half_width_of_model(const ModelError& model) {
 }
 
 WeighedRates::WeighedRates(const PredictionError& error, double setting_spread, std::vector<Weighing> weighings)
-    : built_(square(error.tolerance) + square(error.numerics)),
+    : tolerance_(square(error.tolerance)),
+      numerics_(square(error.numerics)),
       variances_(drawn_variances(error.model)),
       setting_spread_(setting_spread),
       weighings_(std::move(weighings)) {}
@@ -86,7 +87,8 @@ double common_share(const SettingPlace& a, const SettingPlace& b) {
 }
 
 std::vector<WeighedRates::Normal> WeighedRates::mixture(const std::vector<Weighing>& weighings, double own_deviation,
-                                                        const std::optional<SettingPlace>& setting) const {
+                                                        const std::optional<SettingPlace>& setting,
+                                                        const std::optional<double>& tolerance) const {
   const auto count = static_cast<Eigen::Index>(weighings.size());
   const auto row = [&](Eigen::Index i) -> const Weighing& { return weighings[static_cast<std::size_t>(i)]; };
   const auto own_part = [&](double deviation) { return std::hypot(setting_spread_, deviation); };
@@ -104,14 +106,16 @@ std::vector<WeighedRates::Normal> WeighedRates::mixture(const std::vector<Weighi
   std::vector<Normal> normals;
   double largest = -std::numeric_limits<double>::infinity();
   for (const double variance : variances_) {
-    const double common = variance + built_;
-    Normal normal{0, 0, std::sqrt(common + asked_variance)};
+    const double weighed = variance + numerics_ + tolerance_;  // what all that was weighed has in common
+    const double common = tolerance ? variance + numerics_ : weighed;
+    const double asked = variance + numerics_ + (tolerance ? square(*tolerance) : tolerance_) + asked_variance;
+    Normal normal{0, 0, std::sqrt(asked)};
     if (count > 0) {
-      const Eigen::LDLT<Eigen::MatrixXd> solver(own + Eigen::MatrixXd::Constant(count, count, common));
+      const Eigen::LDLT<Eigen::MatrixXd> solver(own + Eigen::MatrixXd::Constant(count, count, weighed));
       const Eigen::VectorXd with = shared.array() + common;
       const Eigen::VectorXd solved = solver.solve(with);
       normal.mean = solved.dot(values);
-      normal.deviation = std::sqrt(std::max(0.0, common + asked_variance - solved.dot(with)));
+      normal.deviation = std::sqrt(std::max(0.0, asked - solved.dot(with)));
       normal.weight = -0.5 * (solver.vectorD().array().log().sum() + values.dot(solver.solve(values)));
     }
     largest = std::max(largest, normal.weight);
@@ -136,8 +140,9 @@ double below(const Normals& normals, double value) {
 
 }  // namespace
 
-WeighedRates::Answer WeighedRates::at(double own_deviation, const std::optional<SettingPlace>& setting) const {
-  const std::vector<Normal> normals = mixture(weighings_, own_deviation, setting);
+WeighedRates::Answer WeighedRates::at(double own_deviation, const std::optional<SettingPlace>& setting,
+                                      const std::optional<double>& tolerance) const {
+  const std::vector<Normal> normals = mixture(weighings_, own_deviation, setting, tolerance);
   const auto factor = [&](double share) {
     return std::exp(quantile(share, [&](double value) { return below(normals, value); }));
   };
@@ -150,7 +155,7 @@ std::vector<double> WeighedRates::surprise() const {
     std::vector<Weighing> others = weighings_;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     const Weighing& one = weighings_[i];
-    std::vector<Normal> normals = mixture(others, one.own_deviation, one.setting);
+    std::vector<Normal> normals = mixture(others, one.own_deviation, one.setting, std::nullopt);
     for (Normal& normal : normals) normal.deviation = std::hypot(normal.deviation, one.deviation);
     const double share = std::clamp(below(normals, one.log_ratio), 0.0, 1.0);  // sums of shares end off 1 by rounding
     shares.push_back(2 * std::min(share, 1 - share));

@@ -77,7 +77,9 @@ class WeighedRates {
     double middle = 1;
     FactorRange range{};
   };
-  Answer at(double own_deviation, const std::optional<SettingPlace>& setting = std::nullopt) const;
+  /// `tolerance`: of holes that are drilled anew, its deviation, in the place of that of the holes that were weighed.
+  Answer at(double own_deviation, const std::optional<SettingPlace>& setting = std::nullopt,
+            const std::optional<double>& tolerance = std::nullopt) const;
 
   /// Of each weighing: how likely one so far off, or further, is by all the others; small where it contradicts them.
   std::vector<double> surprise() const;
@@ -87,9 +89,9 @@ class WeighedRates {
     double weight, mean, deviation;
   };
   std::vector<Normal> mixture(const std::vector<Weighing>& weighings, double own_deviation,
-                              const std::optional<SettingPlace>& setting) const;
+                              const std::optional<SettingPlace>& setting, const std::optional<double>& tolerance) const;
 
-  double built_;                   // variance of tolerance and numerics
+  double tolerance_, numerics_;    // variances
   std::vector<double> variances_;  // of the model, of equal probability
   double setting_spread_;
   std::vector<Weighing> weighings_;

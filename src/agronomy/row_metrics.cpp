@@ -125,11 +125,13 @@ constexpr std::array table = {
     RowMetric{"rate_g_per_min", "g/min", gram / 60,
               "what the row gets, of the whole tray (in 2D the slice's times the depth factor; empty without "
               "tray.depth); all: the rows together",
-              [](Source s) { return s.row.mass_rate; }},
-    RowMetric{"seeds_per_s", "1/s", 1, "the same in seeds", [](Source s) { return s.row.seeds_per_s; }},
+              [](Source s) { return s.row.mass_rate; }, Metric::Kind::rate},
+    RowMetric{"seeds_per_s", "1/s", 1, "the same in seeds", [](Source s) { return s.row.seeds_per_s; },
+              Metric::Kind::rate},
     RowMetric{"kg_per_ha", "kg/ha", kilogram_per_hectare, "that over row spacing and speed; all: of the whole width",
-              [](Source s) { return s.row.kg_per_m2; }},
-    RowMetric{"seeds_per_m2", "1/m2", 1, "the same in seeds", [](Source s) { return s.row.seeds_per_m2; }},
+              [](Source s) { return s.row.kg_per_m2; }, Metric::Kind::rate},
+    RowMetric{"seeds_per_m2", "1/m2", 1, "the same in seeds", [](Source s) { return s.row.seeds_per_m2; },
+              Metric::Kind::rate},
     RowMetric{"instability_cv_percent", "%", percent,
               "coefficient of variation of its seeds over about ten equal parts of the window, whole periods of the "
               "drive; in 2D of the slice's",
@@ -172,18 +174,22 @@ constexpr std::array table = {
         "mass_cv_percent", "%", percent,
         "all: coefficient of variation between rows of what they weigh, as ISO 7256-2 takes it; rows that share a "
         "hole count once",
-        [](Source s) { return s.mass_cv; }, true},
+        [](Source s) { return s.mass_cv; }, Metric::Kind::pooled},
     RowMetric{"raw_cv_percent", "%", percent, "all: the same of their seeds, all replicates together",
-              [](Source s) { return s.raw_cv; }, true},
+              [](Source s) { return s.raw_cv; }, Metric::Kind::pooled},
     RowMetric{"chance_cv_percent", "%", percent, "all: what of that rows of equal rates would show",
-              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.chance_cv; }); }, true},
+              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.chance_cv; }); },
+              Metric::Kind::pooled},
     RowMetric{"unevenness_cv_percent", "%", percent,
               "all: coefficient of variation of the rows' rates without chance; empty: no difference beyond chance",
-              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.cv; }); }, true},
+              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.cv; }); },
+              Metric::Kind::pooled},
     RowMetric{"unevenness_cv_percent_low", "%", percent, "all: lower end of its 95 % interval",
-              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.low; }); }, true},
+              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.low; }); },
+              Metric::Kind::pooled},
     RowMetric{"unevenness_cv_percent_high", "%", percent, "all: upper end: what it may be up to where it is empty",
-              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.high; }); }, true},
+              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.high; }); },
+              Metric::Kind::pooled},
 };
 
 RowSource together(const std::vector<const RowMetrics*>& replicates) {
@@ -208,15 +214,17 @@ RowMeans means_of(const std::vector<const RowMetrics*>& replicates) {
   const RowSource all = together(replicates);
   RowMeans means{first.row, first.holes, first.without_spacing, {}};
   for (const RowMetric& metric : table) {
-    std::vector<double> values;
-    const auto add = [&](const Value& value) {
-      if (value && std::isfinite(*value)) values.push_back(*value);
+    std::vector<CountedRate> values;
+    const auto add = [&](const RowSource& source) {
+      const Value value = metric.of(source);
+      if (!value || !std::isfinite(*value)) return;
+      values.push_back({*value, metric.kind == Metric::Kind::rate ? static_cast<double>(source.row.seeds) : 0});
     };
-    if (metric.pooled)
-      add(metric.of(all));
+    if (metric.is_pooled())
+      add(all);
     else
-      for (const RowMetrics* one : replicates) add(metric.of({*one}));
-    means.means.push_back(values.empty() ? std::nullopt : std::optional(mean_with_interval(values)));
+      for (const RowMetrics* one : replicates) add({*one});
+    means.means.push_back(values.empty() ? std::nullopt : std::optional(mean_of_rates(values)));
   }
   return means;
 }

@@ -8,6 +8,7 @@
 
 #include "agronomy/drill.hpp"
 #include "agronomy/spacings.hpp"
+#include "outflow/metrics.hpp"
 #include "outflow/outflow.hpp"
 #include "outflow/statistics.hpp"
 #include "outflow/unevenness.hpp"
@@ -74,7 +75,8 @@ struct RowMetric {
   double unit_size;              // of that unit, in SI
   std::string_view description;  // a clause without a full stop
   std::optional<double> (*of)(const RowSource&);
-  bool pooled = false;  // of replicates: taken once from the seeds of all together, not a mean with an interval
+  Metric::Kind kind = Metric::Kind::mean;
+  bool is_pooled() const { return kind == Metric::Kind::pooled; }
 };
 
 /// All figures of a row, in the order of rows.csv.

@@ -36,10 +36,11 @@ std::vector<CardRow> settings_card(const TrayRates& rates, const SowingTask& tas
   for (std::size_t i = 0; i < card.size(); ++i) {
     CardRow& row = card[i];
     row.setting = on_side(settings[i], side);
-    if (row.setting) continue;
-    row.setting = rates.by_width(row.needed);
-    row.is_other_width = row.setting.has_value();
-    row.clogs = row.is_other_width && hole_class(row.setting->width / task.seed.largest_diameter()) == HoleClass::clogs;
+    if (!row.setting) {
+      row.setting = rates.by_width(row.needed);
+      row.is_other_width = row.setting.has_value();
+    }
+    row.clogs = row.setting && hole_class(row.setting->width / task.seed.largest_diameter()) == HoleClass::clogs;
   }
   return card;
 }

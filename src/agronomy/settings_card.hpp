@@ -16,7 +16,7 @@ struct CardRow {
   double needed = 0;                          // kg/s, of all holes
   std::optional<CorrectedSetting> setting{};  // none: the table has none
   bool is_other_width = false;                // no frequency gives it, but another width of the holes does
-  bool clogs = false;                         // which is so narrow for the largest seeds (HoleClass)
+  bool clogs = false;                         // its holes are so narrow for the largest seeds (HoleClass)
 };
 
 /// At each speed the frequency that gives what `rows` rows of a task need; all on one side of where the outflow is

@@ -61,7 +61,6 @@ TrayRates::TrayRates(const TableTray& tray, const HoleTable& table, const ModelE
                      std::vector<Weighing> weighings, const ShakerLimits& limits)
     : tray_(tray),
       table_(table),
-      is_weighed_(!weighings.empty()),
       model_(model),
       rates_(common_error(tray_, table, model), setting_spread, std::move(weighings)) {
   const Span within{peak_speed(tray_, limits.least_frequency), peak_speed(tray_, limits.most_frequency)};
@@ -85,35 +84,41 @@ TableTray TrayRates::of_width(double width_over_d) const {
   return set;
 }
 
-double TrayRates::corrected(const TableTray& set) const {
-  return rates_.at(own_deviation(set, table_), place_of(set)).middle * predicted_rate(set, table_);
+WeighedRates::Answer TrayRates::answer(const TableTray& set, bool is_drilled_anew) const {
+  std::optional<double> tolerance;
+  if (is_drilled_anew) tolerance = table_error(table_, set.at, set.seed.diameter, model_).tolerance;
+  return rates_.at(own_deviation(set, table_), place_of(set), tolerance);
 }
 
-CorrectedSetting TrayRates::setting(const TableTray& set, double own) const {
+double TrayRates::corrected(const TableTray& set, bool is_drilled_anew) const {
+  return answer(set, is_drilled_anew).middle * predicted_rate(set, table_);
+}
+
+CorrectedSetting TrayRates::setting(const TableTray& set, bool is_drilled_anew) const {
   const double predicted = predicted_rate(set, table_);
-  const FactorRange range = rates_.at(own, place_of(set)).range;
+  const FactorRange range = answer(set, is_drilled_anew).range;
   return {set.frequency, set.at.width * set.seed.diameter, predicted, range.low * predicted, range.high * predicted};
 }
 
 Span TrayRates::reach() const {
   if (speeds_.empty()) return {};
-  Span reach{corrected(at_speed(speeds_.front())), 0};
+  Span reach{corrected(at_speed(speeds_.front()), false), 0};
   for (const double speed : speeds_) {
-    const double rate = corrected(at_speed(speed));
+    const double rate = corrected(at_speed(speed), false);
     reach = {std::min(reach.least, rate), std::max(reach.most, rate)};
   }
   return reach;
 }
 
 std::vector<CorrectedSetting> TrayRates::by_frequency(double needed) const {
-  const auto rate = [&](double speed) { return corrected(at_speed(speed)); };
+  const auto rate = [&](double speed) { return corrected(at_speed(speed), false); };
   std::vector<double> given;
   for (const double speed : speeds_) given.push_back(rate(speed));
   std::vector<CorrectedSetting> settings;
   for (std::size_t k = 0; k + 1 < speeds_.size(); ++k) {
     if ((given[k] < needed) == (given[k + 1] < needed)) continue;
     const TableTray set = at_speed(place_giving(needed, speeds_[k], speeds_[k + 1], rate));
-    settings.push_back(setting(set, own_deviation(set, table_)));
+    settings.push_back(setting(set, false));
     settings.back().more_by_faster = given[k] < given[k + 1];
   }
   return settings;
@@ -121,11 +126,10 @@ std::vector<CorrectedSetting> TrayRates::by_frequency(double needed) const {
 
 std::optional<CorrectedSetting> TrayRates::by_width(double needed) const {
   const Span widths = table_.widths(tray_.at.aspect);
-  const auto rate = [&](double width) { return corrected(of_width(width)); };
+  const auto rate = [&](double width) { return corrected(of_width(width), true); };
   if (!Span{rate(widths.least), rate(widths.most)}.holds(needed)) return std::nullopt;
   const TableTray set = of_width(place_giving(needed, widths.least, widths.most, rate));
-  const double anew = is_weighed_ ? table_error(table_, set.at, set.seed.diameter, model_).tolerance : 0;
-  return setting(set, std::hypot(own_deviation(set, table_), anew));
+  return setting(set, true);
 }
 
 }  // namespace vibrosow

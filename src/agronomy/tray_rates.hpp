@@ -52,12 +52,13 @@ class TrayRates {
  private:
   TableTray at_speed(double peak_speed) const;
   TableTray of_width(double width_over_d) const;
-  double corrected(const TableTray& set) const;
-  CorrectedSetting setting(const TableTray& set, double own_deviation) const;
+  /// `is_drilled_anew`: its holes are others than those that were weighed.
+  WeighedRates::Answer answer(const TableTray& set, bool is_drilled_anew) const;
+  double corrected(const TableTray& set, bool is_drilled_anew) const;
+  CorrectedSetting setting(const TableTray& set, bool is_drilled_anew) const;
 
   TableTray tray_;
   const HoleTable& table_;
-  bool is_weighed_;
   ModelError model_;
   WeighedRates rates_;
   std::vector<double> speeds_;  // over sqrt(g d), between which outflows bend nowhere

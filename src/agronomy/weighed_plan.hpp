@@ -24,7 +24,8 @@ struct WeighedRow {
 };
 
 struct WeighedPlan {
-  double needed = 0;  // kg/s, of all holes of the tray
+  double needed = 0;      // kg/s, of all holes of the tray
+  double hole_width = 0;  // m
   std::vector<WeighedRow> rows;
   double factor = 1;              // truth over the table at a setting far from these, middle
   FactorRange before{}, after{};  // of a setting far from these, over what is predicted and over `factor`
@@ -32,14 +33,14 @@ struct WeighedPlan {
   Span reach{};  // kg/s, corrected, within the shaker's limits
 };
 
-/// What a tray gives that was weighed. All rows are of one tray at several settings, at least one. Throws InputError
-/// where they are not, and where the table, which must outlive the rates, does not tell of one.
-TrayRates weighed_rates(const std::vector<WeighedTray>& weighed, const HoleTable& table, const ModelError& model,
-                        const ShakerLimits& limits = {});
+/// What a tray gives of which rows, in any order, were weighed at other frequencies and depths of its bed. Throws
+/// InputError where a row is of another tray, and where the table, which must outlive the rates, does not tell of one.
+TrayRates weighed_rates(const TableTray& tray, const std::vector<WeighedTray>& weighed, const HoleTable& table,
+                        const ModelError& model, const ShakerLimits& limits = {});
 
-/// What to set the tray to that was weighed, for `needed` (kg/s, of all its holes). Throws as `weighed_rates` does.
-WeighedPlan plan_weighed(double needed, const std::vector<WeighedTray>& weighed, const HoleTable& table,
-                         const ModelError& model, const ShakerLimits& limits = {});
+/// What to set a tray to that was weighed, for `needed` (kg/s, of all its holes). Throws as `weighed_rates` does.
+WeighedPlan plan_weighed(double needed, const TableTray& tray, const std::vector<WeighedTray>& weighed,
+                         const HoleTable& table, const ModelError& model, const ShakerLimits& limits = {});
 
 /// Above it the repeats of a weighing contradict each other: a scale and a clock err by some 2 %.
 inline constexpr double contradicting_scatter = 0.1;

@@ -19,6 +19,7 @@ using Eigen::VectorXd;
 
 constexpr std::size_t points_predicted = 2048;
 constexpr double normal_95 = 1.959964;
+constexpr double least_freedom = 0.5;  // fewer degrees of freedom leave nothing to judge a misfit by
 
 /// Some values of one measured series that are fitted, or predicted, together.
 struct Part {
@@ -27,7 +28,7 @@ struct Part {
   std::vector<std::size_t> values;  // indices in MeasuredSeries::values
   CurveSurrogate surrogate;
   VectorXd measured;              // as simulated values are: logarithms of rates
-  double off_basis_variance = 0;  // mean square of what of a curve no simulated one follows
+  double off_basis_variance = 0;  // mean square of what of a fitted curve no simulated one follows
 };
 
 class Fit {
@@ -46,6 +47,7 @@ class Fit {
     choose_noise();
     observe();
     describe();
+    judge();
     predict();
     return std::move(result_);
   }
@@ -76,6 +78,16 @@ class Fit {
     }
     if (std::ranges::all_of(parts_, &Part::held_out))
       throw InputError(fmt::format("{}: all of it is held out", task_.measured.file.string()));
+    if (curves_) set_off_basis_variances();
+  }
+
+  /// Of a series' fitted part: what was held out must not widen the interval that it is tried by.
+  void set_off_basis_variances() {
+    for (const Part& fitted : parts_) {
+      if (fitted.held_out) continue;
+      for (Part& part : parts_)
+        if (part.series == fitted.series) part.off_basis_variance = fitted.surrogate.off_components2(fitted.measured);
+    }
   }
 
   /// `offset`: of the series' values in those of a run.
@@ -119,7 +131,6 @@ class Fit {
     part.measured.resize(static_cast<Index>(part.values.size()));
     for (std::size_t v = 0; v < part.values.size(); ++v)
       part.measured(static_cast<Index>(v)) = transformed(series(part.series).values[part.values[v]].mean);
-    if (curves_) part.off_basis_variance = part.surrogate.off_components2(part.measured);
   }
 
   double largest(std::size_t s) const {
@@ -173,15 +184,20 @@ class Fit {
     if (measured_variance_) result_.noise = std::sqrt(*measured_variance_);
   }
 
+  double repeats_of(const Part& part) const { return series(part.series).repeats[part.values.front()]; }
+
   /// Of the scores of the mean of so many readings. A measured rate's scatter has the chance of its flow in it already.
-  MatrixXd chance_of_measured(const Part& part) const {
-    const double repeats = series(part.series).repeats[part.values.front()];
-    if (!curves_ && measured_variance_) return MatrixXd::Constant(1, 1, *measured_variance_ / repeats);
-    MatrixXd chance = part.surrogate.chance / repeats;
+  MatrixXd chance_of_scores(const Part& part) const {
+    if (!curves_ && measured_variance_) return MatrixXd::Constant(1, 1, *measured_variance_ / repeats_of(part));
+    return part.surrogate.chance / repeats_of(part);
+  }
+
+  /// Variance of each reading of a curve beside that of its scores: of a reading alone, so that of scores, whose basis
+  /// is orthonormal, it is the same.
+  double reading_variance(const Part& part) const {
+    if (!curves_) return 0;
     const double size = largest(part.series);
-    chance.diagonal().array() +=
-        part.off_basis_variance + (curves_ ? measured_variance_.value_or(0) * size * size / repeats : 0);
-    return chance;
+    return part.off_basis_variance + measured_variance_.value_or(0) * size * size / repeats_of(part);
   }
 
   void observe() {
@@ -191,18 +207,27 @@ class Fit {
       ObservedValues one;
       for (const GaussianProcess& score : part.surrogate.scores) one.surrogates.push_back(&score);
       one.values = part.surrogate.scores_of(part.measured);
-      one.chance = chance_of_measured(part);
+      one.chance = chance_of_scores(part);
+      one.chance.diagonal().array() += reading_variance(part);
       one.shifted = task_.measured.scale == MeasuredScale::free;
       result_.fitted_values += static_cast<int>(one.values.size());
       observed.push_back(std::move(one));
     }
     result_.posterior = posterior_sample(observed, static_cast<Index>(task_.keys.size()), choices_.points);
-    const int freedom = result_.fitted_values - (result_.posterior.shifts.size() > 0 ? 1 : 0);
-    if (freedom > 0) {
-      const double misfit = std::max(0.0, result_.posterior.least_misfit);
-      result_.misfit_probability = chi_squared_above(freedom, misfit);
-      result_.misfit_over_noise = std::sqrt(misfit / freedom);
+  }
+
+  /// By the best point's misfit. Its degrees of freedom are the values less the numbers that they determine: a key
+  /// counts by how much of its range's variance is gone (Spiegelhalter et al. 2002, effective number of parameters).
+  void judge() {
+    double freedom = result_.fitted_values - (result_.depth_factor ? 1 : 0);
+    for (const FittedValue& value : result_.values) {
+      const double deviation_left = std::min(1.0, 1 - value.contraction);
+      freedom -= 1 - deviation_left * deviation_left;
     }
+    if (freedom < least_freedom) return;
+    const double misfit = std::max(0.0, result_.posterior.least_misfit);
+    result_.misfit_probability = chi_squared_above(freedom, misfit);
+    result_.misfit_over_noise = std::sqrt(misfit / freedom);
   }
 
   /// Of a quantity given at each point of the posterior.
@@ -247,7 +272,7 @@ class Fit {
     const CurveSurrogate& surrogate = part.surrogate;
     const MatrixXd points = known.points(drawn, Eigen::all);
     MatrixXd means(points.rows(), static_cast<Index>(surrogate.scores.size()));
-    MatrixXd covariance = chance_of_measured(part);
+    MatrixXd covariance = chance_of_scores(part);
     for (Index k = 0; k < means.cols(); ++k) {
       const GaussianPrediction prediction = surrogate.scores[static_cast<std::size_t>(k)].at(points);
       means.col(k) = prediction.mean;
@@ -260,7 +285,7 @@ class Fit {
       const double mean = values.col(at).mean();
       const double between = (values.col(at).array() - mean).square().mean();
       const double within = surrogate.basis.row(at) * covariance * surrogate.basis.row(at).transpose();
-      const double half = normal_95 * std::sqrt(between + within + part.off_basis_variance);
+      const double half = normal_95 * std::sqrt(between + within + reading_variance(part));
       const auto back = [&](double value) { return curves_ ? value : std::exp(value); };
       const MeasuredSeries& of = series(part.series);
       result_.predictions.push_back({part.series, curves_ ? std::optional(of.times[part.values[v]]) : std::nullopt,

@@ -21,10 +21,10 @@ constexpr double unlikely_misfit = 0.01;
 constexpr double most_of_the_noise = 3;  // that the best point may miss the table by
 
 RangeEdge edge_of(const KeyRange& range, const FittedValue& value) {
-  const double near = 0.02 * (range.high - range.low);
+  constexpr double near = 0.02;  // of the range, along which it was taken to be even
   if (value.contraction < little_contraction) return RangeEdge::none;
-  if (value.low - range.low < near) return RangeEdge::lower;
-  return range.high - value.high < near ? RangeEdge::upper : RangeEdge::none;
+  if (range.part_of(value.low) < near) return RangeEdge::lower;
+  return range.part_of(value.high) > 1 - near ? RangeEdge::upper : RangeEdge::none;
 }
 
 std::vector<FittedNumber> numbers_of(const CalibrationTask& task, const Calibration& of) {
@@ -113,10 +113,9 @@ std::vector<CountedDoubt> doubts_of_fit(const CalibrationAnswer& answer) {
   for (std::size_t k = 0; k < answer.task.keys.size(); ++k) {
     const FittedNumber& number = answer.numbers[k];
     if (number.edge != RangeEdge::none)
-      add(edge_of_range,
-          fmt::format("{} lies at the {} edge of its range, {:g} to {:g}: what is better may lie beyond "
-                      "it",
-                      number.name, number.edge == RangeEdge::lower ? "lower" : "upper", *number.low, *number.high));
+      add(edge_of_range, fmt::format("{} lies at the {} edge of its range, {:g} to {:g}: what is better may lie beyond "
+                                     "it",
+                                     number.name, name_of(number.edge), *number.low, *number.high));
     if (number.value.contraction < 0)
       add(wider_than_its_range, fmt::format("{} scatters more than an even spread over its range would (its "
                                             "uncertainty is larger than before): the table agrees with both ends of "
@@ -136,6 +135,10 @@ std::vector<CountedDoubt> doubts_of_fit(const CalibrationAnswer& answer) {
 }
 
 }  // namespace
+
+std::string name_of(RangeEdge edge) {
+  return edge == RangeEdge::none ? "" : edge == RangeEdge::lower ? "lower" : "upper";
+}
 
 CalibrationAnswer answer_of(const CalibrationTask& task, const CalibrationDesign& design,
                             const std::vector<ReducedRun>& runs, const Calibration& calibration) {

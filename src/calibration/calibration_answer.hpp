@@ -11,6 +11,8 @@
 namespace vibrosow {
 
 enum class RangeEdge { none, lower, upper };
+/// "lower" or "upper"; empty for none.
+std::string name_of(RangeEdge edge);
 
 /// A fitted key, or the depth factor, with what is known of it.
 struct FittedNumber {

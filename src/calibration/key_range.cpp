@@ -78,6 +78,10 @@ double KeyRange::at(double part) const {
   return logarithmic ? low * portable_math::pow(high / low, part) : low + (high - low) * part;
 }
 
+double KeyRange::part_of(double value) const {
+  return logarithmic ? portable_math::log(value / low) / portable_math::log(high / low) : (value - low) / (high - low);
+}
+
 Override KeyRange::override_at(double part) const {
   return {key, value_of_column(key, "", at(part)), fmt::format("the range of {}", key)};
 }

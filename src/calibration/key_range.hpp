@@ -18,7 +18,8 @@ struct KeyRange {
   double low = 0, high = 0;  // in the unit of the key's column
   bool logarithmic = false;
 
-  double at(double part) const;  // the value at 0..1 of the range
+  double at(double part) const;        // the value at 0..1 of the range
+  double part_of(double value) const;  // the other way round
   Override override_at(double part) const;
 };
 

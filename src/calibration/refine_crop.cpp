@@ -62,7 +62,7 @@ PlaneToSpace refined_to_space(const ReposeAtlas& atlas, const std::vector<Refini
   std::vector<AtlasPoint> points;
   for (const RefiningRun& wanted : runs) {
     const std::optional<Run> run = kept(name_of_run(wanted.scene, wanted.random_seed));
-    if (!run || run->status != RunStatus::finished) continue;
+    if (!run || run->status != RunStatus::finished || run->outside_the_model) continue;
     AtlasPoint point = atlas_point(wanted.scene, {repose_metrics(wanted.scene, *run)});
     if (point.clogged > 0) continue;
     point.aspect_ratio = wanted.aspect_ratio_in_atlas;

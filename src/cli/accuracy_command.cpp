@@ -233,7 +233,7 @@ int run_table(const AccuracyOptions& options) {
       options.common.quiet, [&] { folder.write(files); },
       [&] {
         print("{}", wrapped(scene.title));
-        print("{}", doubts_paragraph(doubts_about(result, scene), "setting"));
+        print("{}", doubts_paragraph(doubts_about(result, scene), "setting", all_doubts));
         print("\n{}\n{}", accuracy_table(result), wrapped(accuracy_sentence(result)));
       });
   return ended(options, folder, runs, interrupt);

@@ -26,6 +26,7 @@
 #include "report/mixture_text.hpp"
 #include "report/number_text.hpp"
 #include "report/terminal_text.hpp"
+#include "scene/accuracy_level.hpp"
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
 #include "scene/measuring_window.hpp"
@@ -51,7 +52,7 @@ std::string softness_text(const Model& model) {
 }
 
 /// The laws by which contacts push, rub and roll, and the scheme that moves the seeds.
-void print_model(const Model& model) {
+void print_model(const Model& model, AccuracyLevel wanted) {
   const auto line = [](std::string_view what, const std::string& text) {
     print_text(wrapped_beside(fmt::format("  {:<9} ", what), text));
   };
@@ -63,6 +64,10 @@ void print_model(const Model& model) {
                                                              : "constant torque: a torque against rolling");
   line("scheme", integrator_name(model.scene.numerics.integrator));
   line("softness", softness_text(model));
+  const auto level = std::ranges::find(accuracy_levels, wanted, &AccuracyLevelValues::level);
+  if (level == accuracy_levels.end()) return;
+  line("accuracy", fmt::format("{}: known to err by at most {:g} %", level->name,
+                               100 * level->error(model.scene.space, has_clumps(model.scene.lots))));
 }
 
 void print_effects(const Model& model, const CostBreakdown& cost) {
@@ -70,19 +75,19 @@ void print_effects(const Model& model, const CostBreakdown& cost) {
   for (const EffectReason& effect : explain_effects(model.scene, model.effects, *model.law))
     print_text(
         wrapped_beside(fmt::format("  {:<3} {:<17} ", effect.present ? "yes" : "no", effect.effect), effect.reason));
-  print("cost on this machine, now, ns of CPU time per grain-step\n  {:<22} {:6.1f}\n", "all effects present",
-        cost.whole.ns_per_grain_step);
+  print("cost on this machine, now, ns of CPU time per grain-step; of an effect, what\nleaving it out saves\n");
+  print("  {:<22} {:6.1f}\n", "all effects present", cost.whole.ns_per_grain_step);
   for (const EffectCost& effect : cost.effects)
     if (effect.is_resolved())
       print("  {:<22} {:6.1f} +- {:.1f}\n", effect.effect, effect.ns_per_grain_step, effect.half_width_95);
     else
-      print("  {:<22} below what this timing resolves, {:.1f}\n", effect.effect,
+      print("  {:<22} less than {:.1f}, too little for this timing\n", effect.effect,
             std::max(0.0, effect.ns_per_grain_step) + effect.half_width_95);
 }
 
 void print_step(const StepPlan& plan, const PredictedCost& cost) {
-  print("step\n  dt {}, shortest contact {}: {:.3g} steps a contact\n", time_text(plan.dt),
-        time_text(plan.contact_duration), plan.contact_duration / plan.dt);
+  print("step\n  dt {:.4g} s, shortest contact {}: {:.3g} steps a contact\n", plan.dt, time_text(plan.contact_duration),
+        plan.contact_duration / plan.dt);
   for (const StepLimit& limit : plan.limits)
     print_text(wrapped_beside(fmt::format("  at most {:.4g} s: ", limit.dt), limit.reason));
   print_text(wrapped(fmt::format("longest safe step {:.4g} s ({})", plan.longest_safe, plan.bound_by), 2));
@@ -119,8 +124,8 @@ std::string hole_text(const Hole& hole, Space space) {
   if (hole.shape == HoleShape::round)
     return fmt::format("at {:.2f} mm, {:.2f} mm from the front, {:.2f} mm in diameter", hole.centre * mm,
                        hole.across * mm, hole.width * mm);
-  return fmt::format("{}, {:.2f} mm across about {:.2f} mm from the front", plane, hole.across_length * mm,
-                     hole.across * mm);
+  return fmt::format("{}, {:.2f} mm from front to back, its middle {:.2f} mm from the front", plane,
+                     hole.across_length * mm, hole.across * mm);
 }
 
 std::string fill_text(const Vessel& vessel, const Scene& scene) {
@@ -205,7 +210,7 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   for (const Drawing& drawing : drawings) print_text(wrapped(drawing_text(drawing, scene)));
   if (drill) print_text(wrapped(drill_sentence(*drill)));
   print_space_advice(scene);
-  print_model(model);
+  print_model(model, read.numerics.accuracy);
   const auto refused = step_refused(scene.numerics, plan);
   const auto start = start_of_run(model, refused.has_value());
   const std::vector<DrawnSeeds> drawn = start ? start->run.drawn : std::vector<DrawnSeeds>();
@@ -261,7 +266,7 @@ int check_study(const InputFile& file, const CheckOptions& options) {
   if (study.measured)
     print_text(wrapped(fmt::format("measured: {}, {} series, {} of them of a layout", study.measured->file.string(),
                                    study.measured->table.series.size(), compared_series(*study.measured))));
-  print("header of a table of measured outflow:\n{}\n", measured_header(study));
+  print("columns of a CSV table, to compare this study with measured outflow:\n{}\n", measured_header(study));
   return exit_done;
 }
 

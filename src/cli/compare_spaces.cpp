@@ -6,6 +6,7 @@
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "outflow/doubts.hpp"
 #include "plan/model.hpp"
 #include "report/number_text.hpp"
 #include "report/terminal_text.hpp"
@@ -38,7 +39,8 @@ TrayRate tray_rate(const Evaluation& evaluation) {
 void print_rate(std::string_view space, const TrayRate& rate, const Evaluation& evaluation) {
   print("  {:<6} {:>9} g/s {:>9} seeds/s of the tray, from {} counted; run in {}\n", space,
         number_text(rate.mass * 1e3), number_text(rate.seeds), rate.counted, duration_text(evaluation.wall_time));
-  for (const Doubt& doubt : evaluation.outflow.doubts) print_text(wrapped_beside("         note: ", doubt.text));
+  for (const Doubt& doubt : evaluation.outflow.doubts)
+    print_text(wrapped_beside("         ", sentence_of(remark_of(doubt))));
 }
 
 }  // namespace
@@ -47,10 +49,9 @@ void print_space_advice(const Scene& scene) {
   const bool flat = scene.space == Space::two_dimensional;
   print("{}\n", flat ? "2D: discs in a slice one seed thick" : "3D: balls");
   print_text(wrapped_beside(
-      "  ",
-      flat ? "use 2D to compare layouts and frequencies of slots; an absolute rate, round holes, or holes narrower "
-             "than some eight seeds need space = \"3d\": through the one measured slot 2D is 13 % too fast, 3D 5 %"
-           : "use 3D for absolute rates and round holes; to compare many layouts of slots, 2D is far faster"));
+      "  ", flat ? "use 2D to compare layouts and frequencies of slots; an absolute rate or round holes need space = "
+                   "\"3d\": through the one measured slot 2D is 13 % too fast, 3D 5 %"
+                 : "use 3D for absolute rates and round holes; to compare many layouts of slots, 2D is far faster"));
   print("  check --both runs both and prints the ratio of their rates\n");
 }
 

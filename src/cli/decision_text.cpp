@@ -30,7 +30,7 @@ std::string answer_text(const DecisionResult& result, const Answer& answer) {
   if (!result.is_sure)
     return wrapped(undecided_sentence(result)) +
            (result.cost.runs == 0 ? "" : that_are(LayoutStanding::undecided) + doubts);
-  if (!result.best) return wrapped(no_best_sentence(result));
+  if (!result.best) return wrapped(no_best_sentence(result)) + doubts;
   std::string promise = promise_sentence(result);
   if (!is_guaranteed(result)) promise += ' ' + weakness_sentence();
   const std::string others = that_are(LayoutStanding::not_shown_worse);
@@ -45,21 +45,13 @@ std::string rest_text(const DecisionResult& result, const Answer& answer) {
   return text.empty() ? "" : fmt::format("\n{}", wrapped(fmt::format("The others: {} (decision.csv).", text)));
 }
 
-std::string failures_text(const Answer& answer) {
-  std::string text;
-  for (const AnsweredLayout& one : answer.layouts)
-    if (!one.reason.empty())
-      text += wrapped(fmt::format("Layout {} is left out: {}", answer.study->layouts[one.layout].number, one.reason));
-  return text;
-}
-
 }  // namespace
 
 std::string decision_text(const DecisionReport& report) {
   const DecisionResult& result = report.result;
   std::string text = result.study.title.empty() ? "" : wrapped(result.study.title) + "\n";
   const Answer answer = answer_of(result);
-  text += answer_text(result, answer) + rest_text(result, answer) + failures_text(answer) + "\n";
+  text += answer_text(result, answer) + rest_text(result, answer) + left_out_paragraph(answer) + "\n";
   text += expected_paragraph(answer);
   if (!result.tests_clogging && result.options.clogging_limit < 1) text += wrapped(clogging_untested_sentence());
   if (report.drafts) text += wrapped(drafts_sentence(*report.drafts));

@@ -31,7 +31,7 @@ void print_row(const RowMetrics& row) {
 std::string spacings_sentence(const RowMetrics& all) {
   if (all.without_spacing != NoSpacings::none) return spacings_note(all.without_spacing);
   return fmt::format(
-      "multiples and skips are at the hole, not in the furrow: what falls, tube and soil do comes on top. Seeds that "
+      "multiples and skips are at the hole, not in the furrow: the fall, the tube and the soil add scatter. Seeds that "
       "came independently of each other (Poisson) would have {:.3g} and {:.3g} %",
       100 * all.poisson_multiples.value_or(0), 100 * all.poisson_skips.value_or(0));
 }
@@ -49,10 +49,15 @@ std::string setting_text(const std::string& key, double value) {
   return fmt::format("{} {}", to_digits(to_column_unit(key, value), 4), unit ? unit->unit : "");
 }
 
+/// Of layouts that tell nothing; empty where there are none.
+std::string unsound_text(const TradeLine& line) {
+  return line.unsound == 0 ? ""
+                           : fmt::format("runs of {} of the {} settings are missing or doubtful{}", line.unsound,
+                                         line.layouts.size(), line.is_slope ? ", or clogged" : "");
+}
+
 std::string turn_down_text(const TradeLine& line, double cv_limit) {
-  if (!line.not_excluded && line.unsound > 0)
-    return fmt::format("no turn-down: runs of {} of the {} settings are missing or doubtful", line.unsound,
-                       line.layouts.size());
+  if (!line.not_excluded && line.unsound > 0) return "no turn-down: " + unsound_text(line);
   if (!line.not_excluded)
     return fmt::format("no turn-down: at no setting do all runs flow with a CV between rows of {:.3g} %",
                        100 * cv_limit);
@@ -65,7 +70,9 @@ std::string turn_down_text(const TradeLine& line, double cv_limit) {
       line.shown ? fmt::format("where it is shown to be: {}", range(*line.shown)) : "it is shown to be at no setting");
 }
 
-std::string slope_text(const SlopeSensitivity& slope) {
+std::string slope_text(const TradeLine& line) {
+  if (!line.slope) return "no slope: " + (line.unsound > 0 ? unsound_text(line) : "nothing flows on level ground");
+  const SlopeSensitivity& slope = *line.slope;
   constexpr double per_degree = 100 * degree;  // % of a fraction of a radian's change
   const std::string off_line =
       slope.off_line ? fmt::format("; the rates lie within {:.2g} % of that line", 100 * *slope.off_line) : "";
@@ -117,7 +124,9 @@ void print_trade(const StudyResult& result) {
     std::vector<int> numbers;
     for (const std::size_t i : line.layouts) numbers.push_back(result.study.layouts[i].number);
     const double limit = result.study.layouts[line.layouts.front()].drill->cv_limit;
-    const std::string text = line.slope ? slope_text(*line.slope) : turn_down_text(line, limit);
+    std::string text = line.is_slope ? slope_text(line) : turn_down_text(line, limit);
+    const bool tells_something = line.slope || line.not_excluded;
+    if (tells_something && line.unsound > 0) text += "; left out: " + unsound_text(line);
     print_text(wrapped(fmt::format("layouts {}, by {}: {}", fmt::join(numbers, ", "), line.key, text)));
   }
 }

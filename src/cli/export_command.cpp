@@ -16,6 +16,7 @@
 #include "plan/scene_warnings.hpp"
 #include "report/run_report.hpp"
 #include "scene/input_error.hpp"
+#include "simulation/state.hpp"
 #include "storage/case_folder.hpp"
 #include "storage/study_plan.hpp"
 #include "study/planned_study.hpp"
@@ -37,12 +38,13 @@ int export_run(const ExportOptions& command) {
   const auto run = std::ranges::find(runs, command.run, &PlannedRun::name);
   if (run == runs.end())
     throw InputError(fmt::format("{}: its plan has no run {}", options.file, shortened(command.run)));
-  const std::optional<Case> found = CaseFolder(cases_of(options.file)).named(command.run);
+  std::optional<Case> found = CaseFolder(cases_of(options.file)).named(command.run);
   if (!found) throw InputError(fmt::format("{}: run {} is not kept", options.file, command.run));
   const std::size_t index = static_cast<std::size_t>(run - runs.begin());
   const Layout& layout = planned.study.layouts.at(static_cast<std::size_t>(run->layout) - 1);
   const Scene& scene = *wanted_runs(planned, {index}).front().scene;
   const Model model = prepare(scene);
+  found->run.drawn = starting_state(model, run->random_seed).run.drawn;  // which a kept run has not
   const OutputFolder folder = options.output_folder("run", run_file_texts());
   const RunAnswer answer =
       answer_of_run(model.scene, found->run, scene_warnings(scene), knowledge_for(planned.study), layout.drill);

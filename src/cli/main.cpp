@@ -103,7 +103,9 @@ int run_program(const std::vector<std::string>& words) {
                "vibrosow");
   app.formatter(std::make_shared<HelpText>());
   app.set_version_flag("--version", "vibrosow " VIBROSOW_VERSION);
-  app.footer("Exit codes: 0 done, 2 wrong input, 3 stopped by the guard,\n4 a defect of the program, 130 interrupted.");
+  app.footer(
+      "Exit codes: 0 done, 2 wrong input or an answer refused, 3 stopped by the guard,\n4 a defect of the program, 130 "
+      "interrupted.");
   app.require_subcommand(1);
   int exit_code = exit_done;
   for (const auto& [group, commands] : command_groups)

@@ -74,7 +74,7 @@ std::string optimise_text(const OptimiseResult& result, const std::string& folde
   text += doubts_paragraph(doubts_about(answer));
   text += expected_paragraph(answer);
   if (sure.empty() && unsure.empty()) text += wrapped("No layout meets the constraints by its means.");
-  text += fmt::format("\n{}{}", rest_text(answer), wrapped(front_promise(result)));
+  text += fmt::format("\n{}{}{}", rest_text(answer), left_out_paragraph(answer), wrapped(front_promise(result)));
   text += wrapped(front_cost(result));
   if (std::ranges::count_if(result.layouts, leads) < 2) return text;
   const std::uint64_t random_seed = result.options.first_random_seed;  // else it would take none of the runs

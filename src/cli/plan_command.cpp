@@ -139,14 +139,18 @@ PlanSource source_of(const PlanOptions& options) {
 constexpr double usual_weighing_error = 0.02;  // half width of 95 %: a kitchen scale and a clock
 
 /// The tray of the layout with one change to it.
-WeighedTray weighed_tray(const std::string& layout, const std::vector<Override>& changes, double mass_rate,
-                         double half_width) {
+TableTray tray_of(const std::string& layout, const std::vector<Override>& changes = {}) {
   try {
-    return {table_tray(read_scene(layout, changes)), mass_rate, half_width / normal_95};
+    return table_tray(read_scene(layout, changes));
   } catch (const InputError& error) {
     const std::string what = error.what();
     throw InputError(what.find(layout) == std::string::npos ? layout + ": " + what : what);
   }
+}
+
+WeighedTray weighed_tray(const std::string& layout, const std::vector<Override>& changes, double mass_rate,
+                         double half_width) {
+  return {tray_of(layout, changes), mass_rate, half_width / normal_95};
 }
 
 /// "0.17 g/s at 6.4 Hz", or "0.17 g/s +- 3 % at 6.4 Hz".
@@ -218,6 +222,7 @@ std::string asked_again(const PlanOptions& options) {
   add("--speed", options.speed);
   const std::string written = options.common.out.empty() ? "SEEDER.toml" : options.common.out + "/seeder.toml";
   add("--layout", options.layout.empty() ? written : options.layout);
+  if (options.rows && !options.layout.empty()) add("--rows", std::to_string(*options.rows));
   for (const std::string& weighed : options.weighed) add("--weighed", weighed);
   add("--html", options.html);
   return typed_line(words);
@@ -253,7 +258,8 @@ int run_weighed(PlanOptions options, const PlanSource& source) {
       weighed.push_back(weighing_of(options.layout, text));
   }
   constexpr double same = 0.01;
-  const PlannedSeed& seed = weighed.front().tray.seed;
+  const TableTray tray = tray_of(options.layout);
+  const PlannedSeed& seed = tray.seed;
   const auto differs = [](double one, double other) { return std::abs(one / other - 1) > same; };
   if (differs(seed.mass, task.seed.mass) || differs(seed.diameter, task.seed.diameter) ||
       differs(seed.aspect, task.seed.aspect))
@@ -265,11 +271,11 @@ int run_weighed(PlanOptions options, const PlanSource& source) {
   const int rows = rows_of(options);
   const HoleTable table = shipped_hole_table();
   const ModelError model = shipped_model_error();
-  const WeighedPlan plan = plan_weighed(rows * task.row_mass_rate(), weighed, table, model);
+  const WeighedPlan plan = plan_weighed(rows * task.row_mass_rate(), tray, weighed, table, model);
   PlanPage page{.source = source, .weighed = &plan, .command = command};
   PlanCard card;
   if (!options.html.empty()) {
-    const TrayRates rates = weighed_rates(weighed, table, model);
+    const TrayRates rates = weighed_rates(tray, weighed, table, model);
     card = {rates.tray(), rows, settings_card(rates, task, rows)};
     page.card = &card;
   }

@@ -60,8 +60,7 @@ void print_holes(const Outflow& outflow) {
   const auto millimetres = [](const std::optional<double>& at) {
     return at ? fmt::format("{:.1f}", *at * 1e3) : std::string();
   };
-  const bool rows_of_holes = std::ranges::any_of(
-      outflow.holes, [&](const HoleOutflow& row) { return row.across && row.across != outflow.holes.front().across; });
+  const bool rows_of_holes = has_rows_of_holes(outflow);
   std::size_t width = 3;  // of the names of lots
   for (const HoleOutflow& row : outflow.holes) width = std::max(width, row.lot.size());
   print("{:>6}  {:<{}} {:>12}", "hole", "lot", width, "position mm");
@@ -242,10 +241,11 @@ int run_scene(const RunOptions& options) {
     simulation.on_checkpoint = [&](const SimulationState& state) { checkpoint.write(model, state); };
   }
   if (options.resume) simulation.from = checkpoint.read(model, options.random_seed);
+  const bool is_resumed = simulation.from.has_value();
   warn_of_fill(model, simulation, warnings);
   if (recorded.wanted()) simulation.on_record = [&](Simulation& now) { recorded.note(now); };
   Recording recording(model);
-  const bool records = options.html && !simulation.from;  // of the rest alone it would be taken for the run's
+  const bool records = options.html && !is_resumed;  // of the rest alone it would be taken for the run's
   if (records) simulation.observers = recording.observers();
   if (options.html && !records && !options.quiet)
     print_notes({fmt::format("the page of a resumed run has no replay and no map; {} makes the run again for them",

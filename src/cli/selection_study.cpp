@@ -35,7 +35,8 @@ class LayoutsLeft {
   void tell(const StudyDecision& decision, const RoundExecutor& rounds) {
     const std::size_t left = decision.left();
     if (!rounds.quiet() && rounds.made() > told_at_ && left != left_)
-      complain(fmt::format("after {} new runs: {} layouts left", rounds.made(), left));
+      complain(
+          fmt::format("after {} new runs: {} layout{} may be the best", rounds.made(), left, left == 1 ? "" : "s"));
     left_ = left;
     told_at_ = rounds.made();
   }

@@ -105,7 +105,7 @@ void print_status(const std::string& folder) {
   if (rate > 0)
     print("{} left, at the current speed\n", duration_text(status.cost_left / rate));
   else
-    print_text("the same command makes the missing ones\n");
+    print_text("give the command that began the study again: it makes the missing runs\n");
 }
 
 }  // namespace

@@ -240,7 +240,7 @@ void add_submit_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 100000));
   command->add_flag("--rounds", options->rounds, "submit round after round and wait, for adaptive replicates")
       ->group("");
-  command->add_flag("--dry-run", options->dry_run, "print the scripts and submit nothing");
+  command->add_flag("--dry-run", options->dry_run, "write the plan and print the scripts, but submit nothing");
   add_examples(*command, {"vibrosow submit wheat-demo --time \"1 h\" --dry-run --out there",
                           "vibrosow submit wheat-demo --time \"1 h\" --shards 4 --dry-run --out there",
                           "vibrosow submit wheat-demo --time \"1 h\" --partition short --dry-run --out q"});

@@ -106,7 +106,7 @@ void print_sweep_table(const StudyResult& result) {
     print("\n{}", wrapped("CV between the holes, %: raw, and the unevenness (without chance) with its 95 % interval; "
                           "\"<\": no difference beyond chance"));
   if (std::ranges::any_of(result.study.scenes, is_slice_of_a_tray))
-    print("\n{}", wrapped("2D: a slice times the depth of the tray, its holes slots all across"));
+    print("\n{}", wrapped("2D: a slice's rate times the depth of the tray; its holes are slots from front to back"));
   if (const std::string expected = expected_paragraph(answer); !expected.empty()) print("\n{}", expected);
   print_trade(result);
   if (!result.comparison) return;

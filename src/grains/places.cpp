@@ -99,13 +99,19 @@ FloorPlace random_place(const Vessel& vessel, double radius, Random& random) {
   }
 }
 
-double random_across(const Vessel& vessel, double radius, double x, Random& random) {
+FloorPlace random_place(const Vessel& vessel, double radius, double from, double to, Random& random) {
+  double x = random.uniform(from, to);
   double margin = vessel.front_and_back == Sides::walls ? std::min(radius, 0.5 * *vessel.depth) : 0;
   if (vessel.plan == Plan::round) {
-    const double room = 0.5 * vessel.length - radius, aside = x - 0.5 * vessel.length;
-    margin = 0.5 * vessel.length - std::sqrt(std::max(0.0, room * room - aside * aside));
+    const double middle = 0.5 * vessel.length;
+    const auto half_chord = [room = middle - radius, middle](double at) {
+      return std::sqrt(std::max(0.0, room * room - (at - middle) * (at - middle)));
+    };
+    const double longest = half_chord(std::clamp(middle, from, to));
+    while (random.uniform() * longest > half_chord(x)) x = random.uniform(from, to);
+    margin = middle - half_chord(x);
   }
-  return random.uniform(margin, *vessel.depth - margin);
+  return {x, random.uniform(margin, *vessel.depth - margin)};
 }
 
 Vessel without_lid(Vessel vessel) {

@@ -27,9 +27,8 @@ FloorPlace within_period(const Vessel& vessel, const FloorPlace& place);
 /// Uniformly at random where a ball of `radius` is between the vessel's ends.
 FloorPlace random_place(const Vessel& vessel, double radius, Random& random);
 
-/// At random across a vessel, m from its front, where a ball of `radius` at `x` (m) along its floor is between its
-/// ends.
-double random_across(const Vessel& vessel, double radius, double x, Random& random);
+/// The same of the strip of its floor between two places along it (m), both between its end walls.
+FloorPlace random_place(const Vessel& vessel, double radius, double from, double to, Random& random);
 
 /// Seeds come into a drum as if its upper half were not there; any other vessel is itself.
 Vessel without_lid(Vessel vessel);

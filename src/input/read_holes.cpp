@@ -208,11 +208,14 @@ void check_holes(const Table& table, const std::vector<Hole>& holes, const Vesse
 
 }  // namespace
 
-SlotsIn3d read_slots_in_3d(Table table, double depth) {
+SlotsIn3d read_slots_in_3d(Table table, HoleShape shape, double depth) {
   SlotsIn3d slots;
   slots.rows = static_cast<int>(table.whole_number("rows", 1, most_rows).value_or(1));
   const std::vector<double> across = table.quantities("across", Dimension::length, 0, longest);
-  if (!across.empty()) slots.open = std::min(1.0, slots.rows * across.front() / depth);
+  if (shape == HoleShape::round)
+    slots.rows = std::max(slots.rows, static_cast<int>(across.size()));
+  else if (!across.empty())
+    slots.open = std::min(1.0, slots.rows * across.front() / depth);
   return slots;
 }
 

@@ -10,8 +10,7 @@ namespace vibrosow {
 /// the left, of one centre from the front. Throws InputError like read_scene.
 std::vector<Hole> read_holes(Table table, const Vessel& vessel, Space space, double diameter);
 
-/// Of the same table of a vessel in 2D whose depth is known and whose holes are slots. Throws InputError like
-/// read_scene.
-SlotsIn3d read_slots_in_3d(Table table, double depth);
+/// Of the same table of a vessel in 2D whose depth is known. Throws InputError like read_scene.
+SlotsIn3d read_slots_in_3d(Table table, HoleShape shape, double depth);
 
 }  // namespace vibrosow

@@ -88,11 +88,11 @@ AccuracyLevel read_accuracy(Table& root, const std::vector<SeedLot>& lots, Space
   const auto error = [&](const AccuracyLevelValues& level) { return level.error(space, has_clumps(lots)); };
   for (const AccuracyLevelValues& level : accuracy_levels)
     if (error(level) <= wanted * (1 + 1e-9)) return level.level;
-  root.fail(
-      "accuracy",
-      fmt::format("{} is less than any level is known to err by with such seeds, {:g} %; `vibrosow accuracy --within` "
-                  "finds out for one seeder",
-                  *text, 100 * error(accuracy_levels.back())));
+  root.fail("accuracy",
+            fmt::format(
+                "{} is too small: the finest level errs by up to {:g} % with such seeds; `vibrosow accuracy --within` "
+                "may do better for one seeder",
+                *text, 100 * error(accuracy_levels.back())));
 }
 
 /// A level takes the place of the softness that a file gives. One that is asked for beside it would count for nothing.
@@ -237,7 +237,7 @@ Space read_space(Table& root) {
   return spaces[root.choice("space", {"2d", "3d"}).value_or(0)];
 }
 
-/// In its own space, or in the one that is wanted.
+/// In its own space, or in the one that is wanted; in another than its own without a drill.
 Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& file,
                       const std::vector<Override>& overrides, const std::shared_ptr<SourceFiles>& files) {
   Table root(Document::read(file, overrides, files));
@@ -275,7 +275,10 @@ Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& 
   scene.run = read_run(root.required_table("run"));
   check_counting_line(root, scene);
   if (auto record = root.table("record")) scene.record = read_record(*record, scene);
-  if (auto drill = root.table("drill")) seeder.drill = read_drill(*drill, scene.tray.holes.size());
+  if (scene.space != own)
+    root.skip("drill");  // which is of the holes in the file's own space
+  else if (auto drill = root.table("drill"))
+    seeder.drill = read_drill(*drill, scene.tray.holes.size());
   root.reject_unknown_keys();
   refuse_missing_lot(root, scene);
   scene.doubts_of_reader.sentences = drawing_warnings(scene, seeder.drawings);

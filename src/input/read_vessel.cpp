@@ -371,9 +371,8 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   if (!vessel.box && vessel.pieces.empty()) table.fail("box", "without floor and end walls a vessel needs pieces");
   if (const auto holes = table.table("holes"))
     vessel.holes = read_holes(*holes, vessel, space, largest_mean_diameter(lots));
-  if (space == Space::two_dimensional && vessel.depth && !vessel.holes.empty() &&
-      vessel.holes.front().shape == HoleShape::slot)
-    vessel.slots_in_3d = read_slots_in_3d(*table.table("holes"), *vessel.depth);
+  if (space == Space::two_dimensional && vessel.depth && !vessel.holes.empty())
+    vessel.slots_in_3d = read_slots_in_3d(*table.table("holes"), vessel.holes.front().shape, *vessel.depth);
   if (vessel.plan == Plan::round && !vessel.holes.empty() && vessel.holes.front().shape != HoleShape::round)
     table.fail("plan", "a round vessel has round holes: holes.shape = \"round\"");
   check_funnel(table, vessel, space);

@@ -17,7 +17,8 @@ namespace vibrosow::inline VIBROSOW_ISA {
 /// inverse mass 0 and curvature 0.
 struct ElasticShell {
   static constexpr std::string_view name = "elastic-shell";
-  static constexpr std::string_view description = "thin elastic shell on a rigid core, linear (paper A)";
+  static constexpr std::string_view description =
+      "thin elastic shell on a rigid core, linear (Bogulskaya & Bogulsky 2020)";
   static constexpr LawMaterial material = LawMaterial::shell;
   static constexpr LawDamping damping = LawDamping::restitution;
   static constexpr bool duration_depends_on_speed = false;

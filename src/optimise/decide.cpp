@@ -148,9 +148,9 @@ SceneDecision StudyDecision::metrics_of(std::size_t scene, const std::optional<R
   SceneDecision metrics;
   metrics.reason = failures_[scene];
   metrics.stopped = first_stop(runs_.runs()[scene]);
-  metrics.doubts = doubts_of_layout(study_.scenes[scene], runs_.runs()[scene]);
-  std::vector<double> goal_values, rates;
-  double resolution = 0;
+  metrics.doubts = doubts_of_layout(study_.scenes[scene], runs_.runs()[scene], options_.clogging_limit < 1);
+  const bool goal_is_rate = metric_named(options_.goal->metric).kind == Metric::Kind::rate;
+  std::vector<CountedRate> goal_values, rates;
   std::vector<const Outflow*> counted, flowed;
   const auto rate_of = [&](const Outflow& outflow) {
     return options_.rate ? rate_as_wanted(*options_.rate, outflow) : metric_named("rate_g_per_s").of({outflow});
@@ -162,14 +162,11 @@ SceneDecision StudyDecision::metrics_of(std::size_t scene, const std::optional<R
     counted.push_back(&run.outflow);
     if (!has_clogged(run)) flowed.push_back(&run.outflow);
     if (const auto goal = options_.goal->of(run.outflow))
-      goal_values.push_back(options_.goal->is_most ? -*goal : *goal);
-    const auto rate = rate_of(run.outflow);
-    if (!rate) continue;
-    rates.push_back(*rate);
-    resolution = std::max(resolution, resolution_of(*rate, run.outflow.seeds()));
+      goal_values.push_back({options_.goal->is_most ? -*goal : *goal, goal_is_rate ? run.outflow.seeds() : 0});
+    if (const auto rate = rate_of(run.outflow)) rates.push_back({*rate, run.outflow.seeds()});
   }
-  if (!goal_values.empty()) metrics.goal = mean_with_interval(goal_values);
-  if (!rates.empty()) metrics.rate = mean_with_interval(rates, resolution);
+  if (!goal_values.empty()) metrics.goal = mean_of_rates(goal_values);
+  if (!rates.empty()) metrics.rate = mean_of_rates(rates);
   metrics.unevenness = unevenness_of(flowed);
   const ExpectedWithDoubts expected = expected_of(study_.scenes[scene], counted, knowledge);
   metrics.expected = expected.rate;

@@ -48,6 +48,7 @@ DraftScreen::DraftScreen(const Study& study, const DecideOptions& options)
       pilots_(spread_evenly(pilots, study.scenes.size())),
       own_counts_(study.scenes.size(), 0),
       draft_counts_(study.scenes.size(), 0) {
+  options_.goal = &goal_between(*options.goal, study.scenes);
   for (const std::size_t scene : pilots_) own_counts_[scene] = draft_counts_[scene] = runs;
 }
 

@@ -261,7 +261,7 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
   std::vector<Evaluation> of_all_variants;
   for (const SceneRuns& runs : generation.runs)
     std::ranges::copy(runs.runs()[*trial.scene], std::back_inserter(of_all_variants));
-  result.doubts = doubts_of_layout(generation.study.scenes[*trial.scene], of_all_variants);
+  result.doubts = doubts_of_layout(generation.study.scenes[*trial.scene], of_all_variants, options_.clogging_limit < 1);
   result.runs = search_->front().observations(layout);
   const std::vector<KnownMean> known = search_->front().known(layout);
   for (std::size_t g = 0; g < options_.goals.size(); ++g) {
@@ -273,16 +273,14 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
     if (!goal.asks_for.empty()) mean = std::abs(mean);
     if (goal.metric != nullptr && goal.metric->is_most) mean = -mean;
   }
-  std::vector<double> rates;
-  double resolution = 0;
+  std::vector<CountedRate> rates;
   std::vector<const Outflow*> counted, flowed;
   for (std::size_t r = 0; r < static_cast<std::size_t>(result.runs); ++r) {
     const Evaluation& run = evaluation(Variant::as_it_is, trial, r);
     result.clogged +=
         std::ranges::any_of(variants_, [&](Variant variant) { return has_clogged(evaluation(variant, trial, r)); });
     if (!run.is_sound() || (has_clogged(run) && options_.clogging_limit < 1)) continue;
-    rates.push_back(rate_as(Variant::as_it_is, trial, r));
-    resolution = std::max(resolution, resolution_of(rates.back(), run.outflow.seeds()));
+    rates.push_back({rate_as(Variant::as_it_is, trial, r), run.outflow.seeds()});
     counted.push_back(&run.outflow);
     if (!has_clogged(run)) flowed.push_back(&run.outflow);
   }
@@ -295,7 +293,7 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
   else if (const auto goal = std::ranges::find_if(options_.goals, is_rate); goal != options_.goals.end())
     result.rate = result.goals[static_cast<std::size_t>(goal - options_.goals.begin())];
   else if (!rates.empty())
-    result.rate = mean_with_interval(rates, resolution);
+    result.rate = mean_of_rates(rates);
   return result;
 }
 

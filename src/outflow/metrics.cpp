@@ -98,20 +98,17 @@ MetricMeans::MetricMeans(const std::vector<const Outflow*>& replicates) {
   if (replicates.empty()) return;
   const MetricSource all = together(replicates);
   for (std::size_t i = 0; i < table.size(); ++i) {
-    std::vector<double> values;
-    double resolution = 0;
+    std::vector<CountedRate> values;
     const auto add = [&](const MetricSource& source) {
       const Value value = table[i].of(source);
       if (!value || !std::isfinite(*value)) return;
-      values.push_back(*value);
-      if (table[i].kind == Metric::Kind::rate)
-        resolution = std::max(resolution, resolution_of(*value, source.outflow.seeds()));
+      values.push_back({*value, table[i].kind == Metric::Kind::rate ? source.outflow.seeds() : 0});
     };
     if (table[i].is_pooled())
       add(all);
     else
       for (const Outflow* one : replicates) add({*one});
-    if (!values.empty()) means_[i] = mean_with_interval(values, resolution);
+    if (!values.empty()) means_[i] = mean_of_rates(values);
   }
 }
 

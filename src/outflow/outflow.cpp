@@ -173,6 +173,11 @@ std::optional<Doubt> doubt_if_flow_changed(const std::vector<OutflowEvent>& even
                            first / *third, last / *third, *third)};
 }
 
+/// What falls in is all that can leave: a tray that passes it at once is empty now and then.
+bool is_rained_on_to_the_end(const Vessel& tray, const MeasuringWindow& window) {
+  return tray.rain && tray.rain->start < window.to && tray.rain->stop >= window.to;
+}
+
 bool says_why_flow_ended(const std::vector<Doubt>& doubts) {
   using enum DoubtKind;
   return std::ranges::any_of(doubts, [](const Doubt& doubt) {
@@ -189,7 +194,7 @@ std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const Measur
     doubts.push_back({kind, text.empty() ? std::string(words_of(kind).name) : text});
   };
   if (run.outside_the_model) add(outside_the_model);
-  if (run.tray_empty_since >= 0 && run.tray_empty_since < window.to)
+  if (run.tray_empty_since >= 0 && run.tray_empty_since < window.to && !is_rained_on_to_the_end(scene.tray, window))
     add(ran_dry, run.balance.put_in > 0 ? fmt::format("ran dry at {:.3g} s", run.tray_empty_since)
                                         : std::string("no seed was put in"));
   else if (const auto drained_doubt = doubt_if_drained(run))
@@ -218,6 +223,11 @@ std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const Measur
 }
 
 }  // namespace
+
+bool has_rows_of_holes(const Outflow& outflow) {
+  return std::ranges::any_of(
+      outflow.holes, [&](const HoleOutflow& row) { return row.across && row.across != outflow.holes.front().across; });
+}
 
 std::vector<std::int64_t> counts_in_blocks(const std::vector<double>& times, const std::vector<double>& ends) {
   std::vector<std::int64_t> counts(ends.empty() ? 0 : ends.size() - 1, 0);
@@ -273,29 +283,25 @@ std::optional<Unevenness> unevenness_of(const std::vector<const Outflow*>& repli
 
 MeanWithInterval rate_of_blocks(const Outflow& outflow, std::optional<std::size_t> hole) {
   const std::vector<double> ends = block_ends(outflow.window);
-  std::vector<double> rates;
-  double resolution = 0;
+  std::vector<CountedRate> rates;
   for (std::size_t k = 0; k < outflow.grains_of_hole_in_block.size(); ++k) {  // none of a tray without holes
     const std::vector<std::int64_t>& counts = outflow.grains_of_hole_in_block[k];
     const std::int64_t seeds = hole ? counts[*hole] : std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
-    rates.push_back(static_cast<double>(seeds) / (ends[k + 1] - ends[k]));
-    resolution = std::max(resolution, resolution_of(rates.back(), static_cast<double>(seeds)));
+    rates.push_back({static_cast<double>(seeds) / (ends[k + 1] - ends[k]), static_cast<double>(seeds)});
   }
-  return mean_with_interval(rates, resolution);
+  return mean_of_rates(rates);
 }
 
 std::optional<double> chance_of_rate(const std::vector<const Outflow*>& replicates) {
-  std::vector<double> rates;
-  double resolution = 0;
+  std::vector<CountedRate> rates;
   const Outflow* last = nullptr;
   for (const Outflow* one : replicates) {
     const double rate = find_row(*one, "all", "all")->mass_rate;
     if (!std::isfinite(rate)) continue;
-    rates.push_back(rate), last = one;
-    resolution = std::max(resolution, resolution_of(rates.back(), one->seeds()));
+    rates.push_back({rate, one->seeds()}), last = one;
   }
   if (rates.empty()) return std::nullopt;
-  const MeanWithInterval mean = rates.size() > 1 ? mean_with_interval(rates, resolution) : rate_of_blocks(*last);
+  const MeanWithInterval mean = rates.size() > 1 ? mean_of_rates(rates) : rate_of_blocks(*last);
   if (!(mean.mean > 0) || !mean.half_width_95) return std::nullopt;
   return *mean.half_width_95 / mean.mean;
 }

@@ -47,6 +47,9 @@ struct Outflow {
   std::string note() const;              // their texts: "ran dry at 3.2 s; outside the model"
 };
 
+/// Whether holes lie one behind another, so that a place along the tray does not tell them apart.
+bool has_rows_of_holes(const Outflow& outflow);
+
 /// How many of such times (s, ascending or not) lie in each block, whose ends `block_ends` gives; those before the
 /// first and after the last in none.
 std::vector<std::int64_t> counts_in_blocks(const std::vector<double>& times, const std::vector<double>& ends);

@@ -144,7 +144,9 @@ void warn_of_round_holes(const Vessel& vessel, Warnings& warnings) {
   std::string taken;
   if (vessel.depth) {
     const double width = vessel.holes.front().width;
-    taken = fmt::format(", {:.2g} times the area of a round hole", *vessel.depth / (std::numbers::pi / 4 * width));
+    const int rows = vessel.slots_in_3d.rows;
+    taken = fmt::format(", {:.2g} times the area of {}", *vessel.depth / (rows * std::numbers::pi / 4 * width),
+                        rows > 1 ? "its round holes" : "a round hole");
   }
   warnings.push_back(
       fmt::format("{}.holes.shape: in 2D a round hole is taken for a slot from front to back{}: rates are those of "
@@ -227,7 +229,7 @@ void warn_of_overshoot(const Vessel& vessel, Warnings& warnings) {
 /// A ball that nothing keeps from rolling turns on a floor that moves under it, and stays where it is.
 void warn_of_free_rolling(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
   constexpr double thin = 2.5;  // seeds, by which a bed is deep
-  if (!vessel.fill || !rolls_freely_on(vessel, scene)) return;
+  if (!vessel.fill || !vessel.box || vessel.funnel > 0 || !rolls_freely_on(vessel, scene)) return;
   const double layers = vessel.fill->count / most_seeds(scene, vessel, mean_diameter(scene));
   if (layers > thin) return;
   warnings.push_back(

@@ -65,7 +65,7 @@ Json page_of(const Scene& scene, const AccuracyResult& result, std::size_t chose
           {"space", scene.space == Space::two_dimensional ? "plane" : "three_dimensional"},
           {"vessels", page_vessels(scene)},
           {"scene", Json::parse(scene_to_json(scene))},
-          {"remarks", page_remarks(doubt_remarks(doubts_about(result, scene), "setting"))},
+          {"remarks", page_remarks(doubt_remarks(doubts_about(result, scene), "setting", all_doubts))},
           {"against", result.fit ? "the limit of step 0 and rigid grains" : "the finest setting"},
           {"within_percent", within},
           {"levels", std::move(levels)},

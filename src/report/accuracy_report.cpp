@@ -311,7 +311,7 @@ JsonKeys<PromiseSource> promise_keys() {
       {"pilots", "", "runs made to choose by", [](S s) { return s.promise->pilots; }},
       {"refused", "", "why nothing is promised; empty where something is", [](S s) { return s.promise->refused; }},
       {"doubts", "", "what speaks against its runs, as in decision.json; of settings by their rows in accuracy.csv",
-       [](S s) { return doubts_json(doubts_about(s.promise->runs, *s.scene), "setting"); }},
+       [](S s) { return doubts_json(doubts_about(result_of(*s.promise), *s.scene), "setting"); }},
       {"integrator", "", "scheme chosen",
        of_offer([=](P p, O o) { return integrator_name(setting(p, o).integrator); })},
       {"steps_per_contact", "", "contact duration over the time step",
@@ -439,7 +439,6 @@ std::vector<std::string> promise_paragraphs(const Promise& promise, const Promis
     return {text};
   }
   std::vector<std::string> all = {fmt::format("A rate {}: {}.", goal_text(goal), offer_text(promise, *promise.offer))};
-  if (!promise.fit->fits()) all.push_back("The pilots do not follow their main effects: the bands allow for it.");
   if (promise.mass_rate)
     all.push_back(fmt::format("The rate is {:.5g} g/s, at most {} from that of step 0 and rigid grains (95 %).",
                               promise.mass_rate->mean / gram, share(promise.offer->error_bound())));
@@ -456,7 +455,7 @@ std::string promise_cost(const Promise& promise) {
 std::string promise_text(const Scene& scene, const Promise& promise, const PromiseGoal& goal) {
   std::string text;
   for (const std::string& paragraph : promise_paragraphs(promise, goal)) text += wrapped(paragraph);
-  text += doubts_paragraph(doubts_about(promise.runs, scene), "setting");
+  text += doubts_paragraph(doubts_about(result_of(promise), scene), "setting", all_doubts);
   text += wrapped(promise_cost(promise));
   return text;
 }

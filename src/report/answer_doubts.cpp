@@ -12,8 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_remarks = 6;
-
 /// After "layout 3" or "layouts 3 to 5".
 std::string predicate(LayoutStanding standing, bool several) {
   switch (standing) {
@@ -47,14 +45,20 @@ Remark remark(const LeftOut& of) {
   return {Severity::mild, std::move(text)};
 }
 
+std::string paragraph_of(const std::vector<Remark>& remarks) {
+  std::string text;
+  for (const Remark& remark : remarks) text += wrapped(sentence_of(remark));
+  return text;
+}
+
 }  // namespace
 
-std::vector<Remark> doubt_remarks(const std::vector<SharedDoubt>& doubts, std::string_view noun) {
+std::vector<Remark> doubt_remarks(const std::vector<SharedDoubt>& doubts, std::string_view noun, std::size_t most) {
   std::vector<Remark> remarks;
   for (const SharedDoubt& doubt : doubts) {
-    if (remarks.size() == most_remarks) {
-      remarks.push_back(
-          {Severity::mild, fmt::format("{} more kinds of doubts: the table names them", doubts.size() - most_remarks)});
+    if (remarks.size() == most) {
+      remarks.push_back({words_of(doubt.kind).severity,
+                         fmt::format("{} more kinds of doubts: the table names them", doubts.size() - most)});
       break;
     }
     remarks.push_back(remark_of(doubt, noun));
@@ -62,10 +66,12 @@ std::vector<Remark> doubt_remarks(const std::vector<SharedDoubt>& doubts, std::s
   return remarks;
 }
 
-std::string doubts_paragraph(const std::vector<SharedDoubt>& doubts, std::string_view noun) {
-  std::string text;
-  for (const Remark& remark : doubt_remarks(doubts, noun)) text += wrapped(sentence_of(remark));
-  return text;
+std::string doubts_paragraph(const std::vector<SharedDoubt>& doubts, std::string_view noun, std::size_t most) {
+  return paragraph_of(doubt_remarks(doubts, noun, most));
+}
+
+std::string left_out_paragraph(const Answer& answer) {
+  return paragraph_of(left_out_remarks(answer));
 }
 
 std::vector<Remark> left_out_remarks(const Answer& answer) {
@@ -81,7 +87,7 @@ std::vector<Remark> left_out_remarks(const Answer& answer) {
   std::vector<Remark> remarks;
   std::size_t rest = 0;
   for (const LeftOut& one : all)
-    if (remarks.size() < most_remarks)
+    if (remarks.size() < most_doubts)
       remarks.push_back(remark(one));
     else
       rest += one.layouts.size();

@@ -33,7 +33,9 @@ std::string error_text(const CalibrationAnswer& answer, double rms) {
 }
 
 std::string headline(const CalibrationAnswer& answer) {
-  std::string text = fmt::format("Fitted to {}:", answer.task.measured.file.filename().string());
+  const std::string table = answer.task.measured.file.filename().string();
+  if (!answer.is_fitted) return fmt::format("Nothing was fitted: no values within the ranges meet {}.", table);
+  std::string text = fmt::format("Fitted to {}:", table);
   for (const FittedNumber& row : answer.numbers)
     text += fmt::format(" {} {} ({} to {}){},", row.name, to_digits(row.value.mean, 3), to_digits(row.value.low, 3),
                         to_digits(row.value.high, 3), row.unit.empty() ? "" : " " + row.unit);
@@ -53,9 +55,7 @@ Json parameters(const CalibrationAnswer& answer) {
                    {"mean", row.value.mean},
                    {"low", row.value.low},
                    {"high", row.value.high},
-                   {"edge", row.edge == RangeEdge::none    ? ""
-                            : row.edge == RangeEdge::lower ? "lower"
-                                                           : "upper"},
+                   {"edge", name_of(row.edge)},
                    {"contraction_percent", 100 * row.value.contraction},
                    {"not_told_apart_from", fmt::format("{}", fmt::join(row.not_told_apart_from, ";"))}});
   return all;
@@ -129,7 +129,7 @@ std::string calibration_page_data(const CalibrationAnswer& answer, const Scene& 
                      {"vessels", page_vessels(scene)},
                      {"scene", Json::parse(scene_to_json(scene))},
                      {"headline", headline(answer)},
-                     {"remarks", page_remarks(doubt_remarks(answer.doubts))},
+                     {"remarks", page_remarks(doubt_remarks(answer.doubts, "", all_doubts))},
                      {"quantity", column_of(answer.task.measured.table.quantity)},
                      {"of_curves", is_of_curves(answer)},
                      {"parameters", parameters(answer)},

@@ -25,7 +25,7 @@ std::string confused_with(const FittedNumber& number) {
   return fmt::format("{}", fmt::join(number.not_told_apart_from, ";"));
 }
 
-Columns<FittedNumber> value_columns() {
+Columns<FittedNumber> value_columns(bool is_fitted = true) {
   using Row = const FittedNumber&;
   return {
       text_column<FittedNumber>("key", "that was fitted; depth_factor: what rates of the 2D slice are multiplied by",
@@ -43,7 +43,11 @@ Columns<FittedNumber> value_columns() {
           "by how much its standard deviation is below that of the range it was fitted in; 0: nothing learned",
           [](Row r) { return r.value.contraction; }),
       text_column<FittedNumber>("not_told_apart_from", "others with which it is correlated above 0.8 either way",
-                                [](Row r) { return confused_with(r); })};
+                                [](Row r) { return confused_with(r); }),
+      text_column<FittedNumber>("edge", "lower or upper, where it lies at that end of its range; else empty",
+                                [](Row r) { return name_of(r.edge); }),
+      text_column<FittedNumber>("fitted", "no: no values within the ranges meet the table, and these mean nothing",
+                                [is_fitted](Row) { return std::string(is_fitted ? "yes" : "no"); })};
 }
 
 /// A measured value with its prediction.
@@ -245,7 +249,7 @@ std::vector<OutputFile> calibration_files(const CalibrationAnswer& answer, const
   const std::vector<KeyRange>& keys = answer.task.keys;
   const bool with_factor = answer.calibration.depth_factor.has_value();
   std::vector<OutputFile> files = {
-      {"calibration.csv", csv_of(value_columns(), answer.numbers, format)},
+      {"calibration.csv", csv_of(value_columns(answer.is_fitted), answer.numbers, format)},
       {"prediction.csv", csv_of(prediction_columns(), prediction_rows(answer), format)},
       {"posterior.csv", csv_of(posterior_columns(keys, with_factor), sample(answer), format)},
       {"calibration_runs.csv", csv_of(run_columns(keys), run_rows(answer), format)}};

@@ -59,7 +59,9 @@ std::string metrics_sentence(const DecisionResult& result, std::size_t scene, st
     text += fmt::format("{} of the tray{}, ", in_metric(*of.rate, rate_metric(options.rate)),
                         of_plane(result.study.scenes[scene].space));
   if (!result.tests_clogging && of.clogged > 0)
-    return text + fmt::format("nothing came in {} of {} runs, which count as 0", of.clogged, of.runs);
+    return text + (options.clogging_limit < 1
+                       ? fmt::format("nothing came in {} of {} runs, which count as 0", of.clogged, of.runs)
+                       : fmt::format("clogged in {} of {} runs, which count as they are", of.clogged, of.runs));
   return text + fmt::format("clogged in {} of {} runs", of.clogged, of.runs);
 }
 
@@ -101,9 +103,7 @@ std::string cost_sentence(const DecisionResult& result) {
 std::string correlation_sentence(const DecisionResult& result) {
   if (!result.correlation) return "";
   return fmt::format("Runs of different layouts under one random seed correlate by {:.2f}{}.", *result.correlation,
-                     *result.correlation < DraftScreen::least_correlation
-                         ? fmt::format("; below {:g} common random numbers do not help", DraftScreen::least_correlation)
-                         : ": differences are surer than each value");
+                     *result.correlation > 0 ? ": differences are surer than each value" : "");
 }
 
 std::string drafts_sentence(const DraftFindings& drafts) {

@@ -62,7 +62,7 @@ Columns<MeansRow> sweep_rows_columns() {
     const Unit unit{metric.unit, metric.unit_size};
     const std::string name(metric.name), description(metric.description);
     const auto mean = [&metric](R r) -> const std::optional<MeanWithInterval>& { return (*r.row)[metric.name]; };
-    if (metric.pooled)
+    if (metric.is_pooled())
       columns.push_back(quantity_column<MeansRow>(
           name, unit, description, [mean](R r) { return mean(r) ? std::optional(mean(r)->mean) : std::nullopt; }));
     else
@@ -144,7 +144,11 @@ Columns<TradeRow> trade_columns(const std::vector<std::string>& keys) {
           quantity_column<TradeRow>(
               "off_line_percent", percent,
               "largest distance of a rate from that line, of the rate on level ground; empty for two",
-              [](R r) { return r.line->slope ? r.line->slope->off_line : std::nullopt; })});
+              [](R r) { return r.line->slope ? r.line->slope->off_line : std::nullopt; }),
+          text_column<TradeRow>("unsound",
+                                "how many of these layouts are left out, since runs are missing, stopped or seriously "
+                                "doubted; along the tilt also those that clogged",
+                                [](R r) { return static_cast<std::int64_t>(r.line->unsound); })});
   return columns;
 }
 

@@ -85,9 +85,9 @@ std::string parts_text(const PredictionError& error) {
 std::string model_text(const ModelError& model) {
   const double over = 1 / model.mean_factor - 1;
   return fmt::format(
-      "The model's part is Student's, from {} materials whose flow through still holes and slots others measured: it "
-      "gave {} % too {} of them on the whole. No measurement of a shaken tray was found.",
-      model.materials, two_digit_percent(std::abs(over)), over > 0 ? "much" : "little");
+      "The model's part is Student's t, from {} materials whose flow through still holes and slots others measured or "
+      "gave a formula for: simulated rates were {} % too {} on average. No measurement of a shaken tray was found.",
+      model.materials, two_digit_percent(std::abs(over)), over > 0 ? "high" : "low");
 }
 
 std::string expected_sentence(const ExpectedRate& expected) {

@@ -272,12 +272,12 @@ std::string table_text(const SowingPlan& plan) {
   text += '\n';
   if (std::ranges::none_of(plan.layouts, &PlannedLayout::reaches_working_speeds))
     text += wrapped(fmt::format(
-                "None keeps the sowing rate from {} to {} km/h by frequency alone: the holes' width meters, a "
-                "slide over them, not the shaker.",
+                "No layout keeps the sowing rate from {} to {} km/h by frequency alone: set the rate by the holes' "
+                "width, or a slide over them.",
                 speed_text(working_speeds.least), speed_text(working_speeds.most))) +
             '\n';
   text += wrapped(
-      fmt::format("{} the rate{}. Of each number of holes and depth of bed the best is shown, the best first.",
+      fmt::format("{} the rate{}. The table shows the best for each number of holes and depth of bed, the best first.",
                   plan.layouts.size() == 1 ? "One layout gives" : fmt::format("{} layouts give", plan.layouts.size()),
                   plan.too_uncertain > 0 ? fmt::format("; {} more are left out, as they are unsure by more than {} %",
                                                        plan.too_uncertain, two_digit_percent(most_uncertain))
@@ -285,9 +285,9 @@ std::string table_text(const SowingPlan& plan) {
   const auto line = [&text](std::string_view column, const std::string& meaning) {
     text += wrapped_beside(fmt::format("  {:<12}", column), meaning);
   };
-  line("speeds", fmt::format("at which frequency alone keeps the sowing rate; *: all of {} to {} km/h",
+  line("speeds", fmt::format("driving speeds at which frequency alone gives the rate; *: all of {} to {} km/h",
                              speed_text(working_speeds.least), speed_text(working_speeds.most)));
-  line("expect", "range of the true rate until you weigh (95 %), of the planned one");
+  line("expect", "range of the true rate until you weigh (95 %), in % of the planned rate");
   line("stood still", fmt::format("share of the simulated holes that once let nothing through for {} s{}",
                                   to_digits(long_pause * unit_of_time(plan), 2),
                                   plan.task.seed.has_larger() ? "; of the mean seed" : ""));
@@ -302,8 +302,8 @@ std::string certainty_text(const SowingPlan& plan) {
   const PlannedLayout& best = plan.layouts.front();
   const double rate = plan.task.row_mass_rate() * best.feed.rows / best.feed.holes;
   return fmt::format(
-      "How sure: a hole of the best layout is to give {} g/s. Expect {} until you weigh (95 %); of it {}. {} Its holes "
-      "were watched for {} s in all, so clogs that are rarer were not seen. ",
+      "How sure: a hole of the best layout is to give {} g/s. Expect {} until you weigh (95 %); of it {}. {} The "
+      "simulated holes like it were watched for {} s in all, so clogs that are rarer were not seen. ",
       to_digits(rate / gram, 2), range_text(rate, expected_range(best.error)), parts_text(best.error),
       model_text(best.error.model), to_digits(best.estimate.watched * unit_of_time(plan), 2));
 }
@@ -324,8 +324,9 @@ std::string trust_text(const SowingPlan& plan) {
   return (plan.layouts.empty() ? "How sure: " : certainty_text(plan)) +
          fmt::format(
              "Nothing of this was ever measured. It is simulated: one round hole in a level tray that is shaken along "
-             "by {:g} seeds to each side, friction {:g} ({:g} on the tray), restitution {:g}, dry seeds of one size, "
-             "nothing between them. Even drill charts miss the real rate by 25 to 50 % (MSU P3112): weigh what comes "
+             "its floor by {:g} seeds to each side, friction {:g} ({:g} on the tray), restitution {:g}, dry seeds of "
+             "one size, without straw or dust. Even drill charts miss the real rate by 25 to 50 % (MSU P3112): weigh "
+             "what comes "
              "in a minute before sowing, and ask again with --layout and --weighed.",
              plan.amplitude_over_d, table_model.friction, table_model.wall_friction, table_model.restitution);
 }
@@ -417,6 +418,10 @@ Columns<WeighedRow> weighed_columns() {
           "how likely a rate so far off, or further, is by the other rows and the model's error; "
           "under 1 % it contradicts them",
           [](R r) { return r.surprise; }),
+      quantity_column<WeighedRow>(
+          "repeats_scatter_percent", percent,
+          "standard deviation of its repeats over their mean; 0 of one. Above 10 % they contradict each other",
+          [](R r) { return r.weighed.repeats_scatter; }),
   };
 }
 
@@ -473,29 +478,32 @@ std::vector<std::string> trust_sentences(const PlanSource& source) {
 
 std::vector<std::string> weighed_sentences(const PlanSource& source, int rows, const WeighedPlan& plan) {
   const SowingTask& task = source.plan.task;
-  std::vector<std::string> sentences = {
-      fmt::format("{} row{} of {} kg/ha, every {} cm at {} km/h, need {} g/s of this tray", rows, rows == 1 ? "" : "s",
-                  to_digits(task.sowing_rate / kilogram_per_hectare, 3), to_digits(task.pace.row_spacing * 100, 3),
-                  speed_text(task.pace.speed), to_digits(plan.needed / gram, 3))};
+  std::vector<std::string> sentences = {fmt::format(
+      "{} row{} of {} kg/ha, every {} cm at {} km/h, need{} {} g/s of this tray", rows, rows == 1 ? "" : "s",
+      to_digits(task.sowing_rate / kilogram_per_hectare, 3), to_digits(task.pace.row_spacing * 100, 3),
+      speed_text(task.pace.speed), rows == 1 ? "s" : "", to_digits(plan.needed / gram, 3))};
   const auto add = [&](std::string sentence) { sentences.push_back(std::move(sentence)); };
   for (const WeighedRow& row : plan.rows) add(weighed_row_text(row, plan.rows.size() == 1));
   const auto spread = [](const FactorRange& range) {
     return fmt::format("{} to {} %", two_digit_percent(range.low), two_digit_percent(range.high));
   };
   add(fmt::format(
-      "So the tray gives {} times what the table says. A setting far from these was known to {} of it before "
-      "weighing, and is known to {} now.",
+      "So the tray gives {} times what the table says, by all that is known. The rate at a frequency far from these "
+      "was known to {} of it before weighing, and is known to {} now.",
       to_digits(plan.factor, 3), spread(plan.before), spread(plan.after)));
   if (plan.settings.empty())
-    add(
-        fmt::format("No frequency of this tray gives {} g/s: from {} to {} g/s are to be had. Take {} hole, or another "
-                    "number of rows.",
-                    to_digits(plan.needed / gram, 3), to_digits(plan.reach.least / gram, 3),
-                    to_digits(plan.reach.most / gram, 3), plan.reach.most < plan.needed ? "a wider" : "a narrower"));
+    add(fmt::format(
+        "No frequency of this tray gives {} g/s: it can give {} to {} g/s. Take {} hole, or another number of "
+        "rows.",
+        to_digits(plan.needed / gram, 3), to_digits(plan.reach.least / gram, 3), to_digits(plan.reach.most / gram, 3),
+        plan.reach.most < plan.needed ? "a wider" : "a narrower"));
   for (const CorrectedSetting& setting : plan.settings)
     add(fmt::format("set {:.3g} Hz: expect {} to {} g/s (95 %); {} shaking sows more", setting.frequency,
                     to_digits(setting.low / gram, 3), to_digits(setting.high / gram, 3),
                     setting.more_by_faster ? "faster" : "slower"));
+  if (const double width = plan.hole_width / task.seed.largest_diameter(); hole_class(width) == HoleClass::clogs)
+    add(fmt::format("Its holes are {} seeds wide, and holes under {:g} clog: this is no tray to sow with.",
+                    to_digits(width, 2), kept_open_from));
   if (!plan.settings.empty()) add("Weigh at the frequency that you set: a setting near a weighed one is known best.");
   if (const std::string doubt = mixture_doubt(source); !doubt.empty()) add(doubt);
   return sentences;

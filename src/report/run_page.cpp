@@ -60,17 +60,22 @@ Json hole_table(const RunPage& page) {
   const auto column = [&](const std::string& name, std::string_view unit) {
     columns.push_back({{"name", name}, {"unit", unit}});
   };
-  column("hole", ""), column("seeds of", ""), column("position", "mm"), column("seeds", "");
+  const auto in_millimetres = [](const std::optional<double>& place) {
+    return place ? number_text(in_mm(*place), 4) : std::string();
+  };
+  const bool in_rows = has_rows_of_holes(page.outflow);
+  column("hole", ""), column("seeds of", ""), column("position", "mm");
+  if (in_rows) column("from the front", "mm");
+  column("seeds", "");
   column(rate, "seeds/s"), column(rate, "g/s");
   if (of_tray) column("of the tray", "g/s");
   column("longest pause", "s");
   for (const HoleOutflow& row : page.outflow.holes) {
-    Json cells = {row.hole,
-                  row.lot,
-                  row.centre ? number_text(in_mm(*row.centre), 4) : std::string(),
-                  fmt::format("{}", row.grains),
-                  metric_text(row.seeds_per_s),
-                  metric_text(row.mass_rate * 1e3)};
+    Json cells = {row.hole, row.lot, in_millimetres(row.centre)};
+    if (in_rows) cells.push_back(in_millimetres(row.across));
+    for (const std::string& text :
+         {fmt::format("{}", row.grains), metric_text(row.seeds_per_s), metric_text(row.mass_rate * 1e3)})
+      cells.push_back(text);
     if (of_tray) cells.push_back(metric_text(row.mass_rate * 1e3 * *page.outflow.depth_factor));
     cells.push_back(metric_text(row.longest_pause));
     rows.push_back(std::move(cells));
@@ -101,8 +106,9 @@ std::string headline(const RunPage& page) {
                                  chance ? "95 %, by blocks of this run" : "too few for an interval",
                                  metric_text(outflow.window.from), metric_text(outflow.window.to));
   if (slice && outflow.depth_factor)
-    text += fmt::format(": of the whole tray, {} times the slice that was simulated, its holes slots all across",
-                        metric_text(factor));
+    text += fmt::format(
+        ": of the whole tray, {} times the slice that was simulated, whose holes are slots from front to back",
+        metric_text(factor));
   else if (slice)
     text += ": of a slice one seed thick";
   return text + '.';
@@ -200,10 +206,11 @@ std::string run_page_data(const RunPage& page) {
   std::vector<Remark> remarks;
   for (const Doubt& doubt : page.outflow.doubts) remarks.push_back(remark_of(doubt));
   if (scene.space == Space::two_dimensional && page.outflow.depth_factor)
-    remarks.push_back({Severity::mild,
-                       "2D stands for the whole width: what is said of the whole tray is a slice times its depth, its "
-                       "holes slots all across",
-                       "compare layouts by it; a rate needs space = \"3d\" and a weighing"});
+    remarks.push_back(
+        {Severity::mild,
+         "2D stands for the whole depth: what is said of the whole tray is a slice's rate times its depth; its "
+         "holes are slots from front to back",
+         "compare layouts by it; a rate needs space = \"3d\" and a weighing"});
   Json data = {{"kind", "run"},
                {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
                {"title", scene.title},

@@ -40,7 +40,9 @@ std::string two_digit_percent(double fraction) {
 }
 
 std::string_view of_plane(Space space) {
-  return space == Space::two_dimensional ? " (2D: a slice times the depth, its holes slots all across)" : "";
+  return space == Space::two_dimensional
+             ? " (2D: a slice's rate times the depth; its holes are slots from front to back)"
+             : "";
 }
 
 std::string unevenness_text(const Unevenness& of) {
@@ -53,12 +55,12 @@ std::string unevenness_sentence(const Unevenness& of, std::string_view what) {
   const std::string text = of.cv ? fmt::format("unevenness (CV) between {}s {}", what, unevenness_text(of))
                                  : fmt::format("too few seeds to tell any {} from the others: unevenness (CV) {}", what,
                                                unevenness_text(of));
-  return text + "; by blocks of one run, which cannot show how starts differ";
+  return text + "; from blocks of one run, which do not show how random seeds differ";
 }
 
 std::string window_sentence(const MeasuringWindow& window, double written_from) {
   std::string text = fmt::format("measured from {:.6g} s", window.from);
-  if (window.from != written_from) text += fmt::format(" (not from {:g} s)", written_from);
+  if (window.from != written_from) text += fmt::format(" (run.measure_from is {:g} s)", written_from);
   text += fmt::format(" to {:.6g} s", window.to);
   if (window.drive == MeasuringWindow::Drive::aperiodic)
     return text + ": the drive is a table, of which whole periods are not known";

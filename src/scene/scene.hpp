@@ -46,11 +46,11 @@ struct CropFile : PresetFile {
   std::optional<double> seed_density{};  // kg/m3, by its own mass and size, where the lot has others
 };
 
-/// What a vessel in 2D says of its slots in 3D, where they need not reach from front to back: no run depends on it, but
+/// What a vessel in 2D says of its holes in 3D, where they need not reach from front to back: no run depends on it, but
 /// what its rates stand for does.
 struct SlotsIn3d {
   int rows = 1;
-  double open = 1;  // of the depth, all rows together
+  double open = 1;  // of slots: of the depth, all rows together
   bool operator==(const SlotsIn3d&) const = default;
 };
 

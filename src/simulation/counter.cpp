@@ -40,7 +40,11 @@ Counter::FloorPoint Counter::within_period(const FloorPoint& place) const {
 }
 
 double Counter::past_edge(const Hole& hole, const FloorPoint& place) const {
-  const double along = std::abs(place.x - hole.centre), across = std::abs(place.z - hole.across);
+  const auto apart = [](Sides sides, double distance, double period) {
+    return std::abs(sides == Sides::periodic ? nearest_image(distance, period) : distance);
+  };
+  const double along = apart(tray_.sides, place.x - hole.centre, tray_.length);
+  const double across = is_3d_ ? apart(tray_.front_and_back, place.z - hole.across, *tray_.depth) : 0;
   if (!is_3d_) return along - 0.5 * hole.width;
   if (hole.shape == HoleShape::round) return portable_math::hypot(along, across) - 0.5 * hole.rim_width();
   return std::max(along - 0.5 * hole.width, across - 0.5 * hole.across_length);
@@ -60,6 +64,12 @@ int Counter::hole_beside(const FloorPoint& place, double reach) const {
     const double apart = past_edge(tray_.holes[k], place);
     if (apart <= reach) nearest = static_cast<int>(k) + 1, reach = apart;
   }
+  const auto is_near_an_end = [reach](Sides sides, double at, double length) {
+    return sides == Sides::open && std::min(at, length - at) <= reach;
+  };
+  if (nearest == through_the_floor && (is_near_an_end(tray_.sides, place.x, tray_.length) ||
+                                       (is_3d_ && is_near_an_end(tray_.front_and_back, place.z, *tray_.depth))))
+    return 0;
   return nearest;
 }
 

@@ -45,7 +45,8 @@ class Counter {
   double past_edge(const Hole& hole, const FloorPoint& place) const;
   std::size_t next_flag(std::size_t from) const;
   FloorPoint within_period(const FloorPoint& place) const;
-  /// The hole whose edge is no farther from a place than `reach` (m), of several the nearest; else through_the_floor.
+  /// The hole whose edge is no farther from a place than `reach` (m), of several the nearest; else 0 within it of an
+  /// open end, over which it is spilled; else through_the_floor.
   int hole_beside(const FloorPoint& place, double reach) const;
 
   const Vessel& tray_;

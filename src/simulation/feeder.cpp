@@ -147,13 +147,14 @@ bool Feeder::belongs(const DrawnSeed& seed, const Eigen::Vector3d& at, std::size
   return places_.belong(at, half_width(lot_of(seed), seed.size), v, walls);
 }
 
-void Feeder::note_waiting(std::size_t v, int waiting, double time) {
+void Feeder::note_waiting(std::size_t v, int waiting, double time, bool stands) {
   const Vessel& vessel = model_.vessels[v];
   constexpr double noted_fraction = 0.25;
   if (!state_.warning.empty() || waiting <= noted_fraction * vessel.fill->count) return;
-  state_.warning = fmt::format(
-      "{}.fill.keep falls behind: {} of {} seeds missing at {:.4g} s, for want of room below the walls' top{}",
-      vessel.name, waiting, vessel.fill->count, time, places_.unseen_ways(v));
+  const std::string why = stands ? "for want of room below the walls' top" + places_.unseen_ways(v)
+                                 : fmt::format("as the {} was tipped over", vessel.name);
+  state_.warning = fmt::format("{}.fill.keep falls behind: {} of {} seeds missing at {:.4g} s, {}", vessel.name,
+                               waiting, vessel.fill->count, time, why);
 }
 
 std::optional<double> Feeder::free_height(const Inside& inside, const FloorPlace& place, const DrawnSeed& seed,
@@ -193,7 +194,7 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
     Inside inside = grains_inside(v, walls, grains, touching);
     const int missing = vessel.fill->count - inside.grains;
     if (!stands(vessel, pose)) {
-      note_waiting(v, missing, time);
+      note_waiting(v, missing, time, false);
       continue;
     }
     int waiting = 0;
@@ -216,7 +217,7 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
       next.reset();
       ++added;
     }
-    note_waiting(v, waiting, time);
+    note_waiting(v, waiting, time, true);
   }
   return added;
 }
@@ -252,9 +253,10 @@ int Feeder::rain(std::size_t v, Grains& grains, const Walls& walls, double time)
     const double margin = vessel.sides == Sides::walls ? std::min(radius, 0.5 * vessel.length) : 0;
     const double from = std::clamp(rain.from, margin, vessel.length - margin);
     const double to = std::clamp(rain.to, margin, vessel.length - margin);
-    const double x = shower.random.uniform(from, to);
-    const double z = grains.is_3d ? random_across(vessel, radius, x, shower.random) : 0;
-    const Eigen::Vector3d at = point_in_lab(vessel, frame, Eigen::Vector3d(x, rain.height, z) + aside);
+    const FloorPlace place = grains.is_3d ? random_place(vessel, radius, from, to, shower.random)
+                                          : FloorPlace(shower.random.uniform(from, to), 0);
+    const Eigen::Vector3d own(place.x(), rain.height, place.y());
+    const Eigen::Vector3d at = point_in_lab(vessel, frame, own + aside);
     const bool clear = places_.is_clear_of_grains(at, radius, grains) &&
                        places_.depth_in_walls(at, radius, walls) <= most_placing_overlap * radius;
     if (!clear || !belongs(*shower.next, at, v, walls)) continue;

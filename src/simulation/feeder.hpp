@@ -62,7 +62,8 @@ class Feeder {
   const SeedLot& lot_of(const DrawnSeed& seed) const;
   DrawnSeed draw(Random& random) const;  // its lot and size
   double radius_of(const DrawnSeed& seed) const;
-  void note_waiting(std::size_t vessel, int waiting, double time);
+  /// `stands`: whether the vessel does; in one that is tipped over nothing is put.
+  void note_waiting(std::size_t vessel, int waiting, double time, bool stands);
 
   const Model& model_;
   FeederState& state_;

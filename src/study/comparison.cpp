@@ -74,7 +74,7 @@ Pairing pair_up(const StudyResult& result, const MeasuredMatch& match) {
   if (curve) pairing.times = pairing.series->times;
   for (const MeanWithInterval& value : pairing.series->values) pairing.measured.push_back(value.mean);
   for (const Evaluation& replicate : result.runs[scene]) {
-    if (!replicate.finished()) continue;
+    if (!replicate.finished() || is_left_out(result.study, replicate)) continue;
     pairing.simulated.push_back(simulated_values(replicate, part, *pairing.series, result.study.scenes[scene]));
     if (part.scale == MeasuredScale::depth) pairing.depth_factor = replicate.outflow.depth_factor.value();
   }

@@ -17,9 +17,11 @@ std::vector<CountedDoubt> doubts_of_scene(const Scene& scene) {
   return doubts;
 }
 
-std::vector<CountedDoubt> doubts_of_layout(const Scene& scene, const std::vector<Evaluation>& runs) {
+std::vector<CountedDoubt> doubts_of_layout(const Scene& scene, const std::vector<Evaluation>& runs,
+                                           bool tests_clogging) {
   std::vector<CountedDoubt> doubts = doubts_of_runs(runs);
-  std::erase_if(doubts, [](const CountedDoubt& doubt) { return doubt.kind == DoubtKind::stopped_flowing; });
+  if (tests_clogging)
+    std::erase_if(doubts, [](const CountedDoubt& doubt) { return doubt.kind == DoubtKind::stopped_flowing; });
   for (CountedDoubt& doubt : doubts_of_scene(scene)) doubts.push_back(std::move(doubt));
   return doubts;
 }

@@ -14,8 +14,9 @@ std::vector<CountedDoubt> doubts_of_runs(const std::vector<Evaluation>& runs);
 /// What in a scene can hardly be meant (`scene_warnings`).
 std::vector<CountedDoubt> doubts_of_scene(const Scene& scene);
 
-/// Of a layout that is decided about: of its runs that finished, and of its scene. That runs stopped flowing is not
-/// among them: a decision counts those as clogged.
-std::vector<CountedDoubt> doubts_of_layout(const Scene& scene, const std::vector<Evaluation>& runs);
+/// Of a layout that is decided about: of its runs that finished, and of its scene. Where `tests_clogging`, that runs
+/// stopped flowing is not among them: the decision leaves those out and tells how many there were.
+std::vector<CountedDoubt> doubts_of_layout(const Scene& scene, const std::vector<Evaluation>& runs,
+                                           bool tests_clogging);
 
 }  // namespace vibrosow

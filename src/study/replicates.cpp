@@ -4,29 +4,27 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "outflow/statistics.hpp"
-
 namespace vibrosow {
 namespace {
 
-std::vector<double> that_flowed(const std::vector<std::optional<double>>& rates) {
-  std::vector<double> flowed;
+std::vector<CountedRate> that_flowed(const std::vector<std::optional<CountedRate>>& rates) {
+  std::vector<CountedRate> flowed;
   for (const auto& rate : rates)
     if (rate) flowed.push_back(*rate);
   return flowed;
 }
 
 /// Half width of the interval over the mean; endless where there is none yet.
-double relative_half_width(const std::vector<double>& values) {
-  const MeanWithInterval mean = mean_with_interval(values);
+double relative_half_width(const std::vector<CountedRate>& rates) {
+  const MeanWithInterval mean = mean_of_rates(rates);
   return mean.half_width_95 && mean.mean != 0 ? *mean.half_width_95 / std::abs(mean.mean) : HUGE_VAL;
 }
 
 }  // namespace
 
-std::optional<int> enough_runs(const std::vector<std::optional<double>>& rates, const Replicates& wanted) {
+std::optional<int> enough_runs(const std::vector<std::optional<CountedRate>>& rates, const Replicates& wanted) {
   if (!wanted.interval) throw std::logic_error("no interval is wanted");
-  std::vector<double> flowed;
+  std::vector<CountedRate> flowed;
   for (std::size_t n = 0; n < rates.size(); ++n) {
     if (rates[n]) flowed.push_back(*rates[n]);
     if (static_cast<int>(flowed.size()) >= Replicates::least_by_interval &&
@@ -36,7 +34,7 @@ std::optional<int> enough_runs(const std::vector<std::optional<double>>& rates, 
   return std::nullopt;
 }
 
-int runs_to_go_to(const std::vector<std::optional<double>>& rates, const Replicates& wanted) {
+int runs_to_go_to(const std::vector<std::optional<CountedRate>>& rates, const Replicates& wanted) {
   const int now = static_cast<int>(rates.size());
   if (enough_runs(rates, wanted) || now >= wanted.most) return now;
   const double over = relative_half_width(that_flowed(rates)) / *wanted.interval;

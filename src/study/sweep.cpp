@@ -53,10 +53,9 @@ void drop_surplus(const Study& study, std::vector<Evaluation>& replicates) {
 
 /// The runs of which figures are made.
 std::vector<Evaluation> flowed_only(const Study& study, const std::vector<Evaluation>& replicates) {
-  if (!study.replicates.interval) return replicates;
   std::vector<Evaluation> flowed;
   for (const Evaluation& one : replicates)
-    if (!one.stopped_flowing()) flowed.push_back(one);
+    if (!is_left_out(study, one)) flowed.push_back(one);
   return flowed;
 }
 
@@ -76,18 +75,16 @@ std::optional<MeanWithInterval> mean_over(const std::vector<Evaluation>& replica
 /// Mean of a hole's figure over the finished replicates that have it.
 std::optional<MeanWithInterval> mean_of_row(const std::vector<Evaluation>& replicates, const HoleOutflow& hole,
                                             double HoleOutflow::*member) {
-  std::vector<double> values;
-  double resolution = 0;
+  std::vector<CountedRate> values;
   for (const Evaluation& replicate : replicates) {
     if (!replicate.finished()) continue;
     const HoleOutflow* row = find_row(replicate.outflow, hole.hole, hole.lot);
     if (!row || !std::isfinite(row->*member)) continue;
-    values.push_back(row->*member);
-    if (member != &HoleOutflow::longest_pause)
-      resolution = std::max(resolution, resolution_of(values.back(), static_cast<double>(row->grains)));
+    const bool is_rate = member != &HoleOutflow::longest_pause;
+    values.push_back({row->*member, is_rate ? static_cast<double>(row->grains) : 0});
   }
   if (values.empty()) return std::nullopt;
-  return mean_with_interval(values, resolution);
+  return mean_of_rates(values);
 }
 
 std::vector<const Outflow*> finished_outflows(const std::vector<Evaluation>& replicates) {
@@ -144,36 +141,41 @@ BedMetrics bed_metrics(const Scene& scene, std::size_t record, const std::vector
   return metrics;
 }
 
-void set_status(LayoutResult& result, const std::vector<Evaluation>& replicates) {
-  result.replicates = static_cast<int>(std::ranges::count_if(replicates, &Evaluation::finished));
-  const auto refused = std::ranges::find(replicates, EvaluationStatus::refused, &Evaluation::status);
-  const auto stopped = std::ranges::find(replicates, EvaluationStatus::stopped, &Evaluation::status);
-  if (refused != replicates.end()) {
+void set_status(LayoutResult& result, const std::vector<Evaluation>& runs) {
+  const auto finished = std::ranges::count_if(runs, &Evaluation::finished);
+  const auto refused = std::ranges::find(runs, EvaluationStatus::refused, &Evaluation::status);
+  const auto stopped = std::ranges::find(runs, EvaluationStatus::stopped, &Evaluation::status);
+  if (refused != runs.end()) {
     result.status = LayoutStanding::invalid;
     result.reason = refused->reason;
-  } else if (stopped != replicates.end()) {
+  } else if (stopped != runs.end()) {
     result.status = LayoutStanding::stopped;
     result.reason = fmt::format("random seed {}: {}", stopped->random_seed, stopped->reason);
-  } else if (result.replicates < static_cast<int>(replicates.size())) {
+  } else if (finished < std::ssize(runs)) {
     result.status = LayoutStanding::incomplete;
-    result.reason = fmt::format("{} of {} runs finished", result.replicates, replicates.size());
-  } else {
-    result.doubts = doubts_of_runs(replicates);
-    if (std::ranges::any_of(replicates, &Evaluation::outside_the_model))
-      result.status = LayoutStanding::outside_the_model;
+    result.reason = fmt::format("{} of {} runs finished", finished, runs.size());
+  } else if (std::ranges::any_of(runs, &Evaluation::outside_the_model)) {
+    result.status = LayoutStanding::outside_the_model;
   }
+}
+
+/// Where runs that clogged are left out of the figures: a few that flowed among many say little of the layout.
+std::optional<CountedDoubt> doubt_of_clogged(int clogged, int runs) {
+  if (clogged == 0) return std::nullopt;
+  if (clogged == runs) return CountedDoubt{DoubtKind::stopped_flowing, clogged, runs, "every run clogged"};
+  const DoubtKind kind = 2 * clogged > runs ? DoubtKind::two_kinds_of_run : DoubtKind::clogged_replicates;
+  return CountedDoubt{kind, 0, 0, fmt::format("clogged in {} of {} runs, which are left out", clogged, runs)};
 }
 
 /// Of replicates by need: runs that clogged, and what to know about the interval.
 void add_doubts_of_need(const Study& study, const std::vector<Evaluation>& replicates, LayoutResult& result) {
   const auto add = [&](DoubtKind kind, std::string text) { result.doubts.push_back({kind, 0, 0, std::move(text)}); };
-  const std::vector<std::optional<double>> rates = rates_of(replicates);
-  if (result.stopped_flowing > 0)
-    add(DoubtKind::clogged_replicates,
-        fmt::format("clogged in {} of {} runs, which are left out", result.stopped_flowing, replicates.size()));
+  const std::vector<std::optional<CountedRate>> rates = rates_of(replicates);
+  if (auto clogged = doubt_of_clogged(result.stopped_flowing, static_cast<int>(replicates.size())))
+    result.doubts.push_back(*std::move(clogged));
   std::vector<double> flowed;
   for (const auto& rate : rates)
-    if (rate) flowed.push_back(*rate);
+    if (rate) flowed.push_back(rate->rate);
   if (!enough_runs(rates, study.replicates)) {
     const bool more_may_follow = static_cast<int>(rates.size()) < study.replicates.most;
     add(DoubtKind::wide_interval,
@@ -203,8 +205,10 @@ SceneResult result_of(const Study& study, const Scene& scene, const std::vector<
                       const std::vector<Drill>& drills) {
   LayoutResult result;
   const std::vector<Evaluation> replicates = flowed_only(study, runs);
-  set_status(result, replicates);
+  set_status(result, runs);
+  result.replicates = static_cast<int>(std::ranges::count_if(replicates, &Evaluation::finished));
   result.stopped_flowing = static_cast<int>(std::ranges::count_if(runs, &Evaluation::stopped_flowing));
+  result.doubts = doubts_of_runs(replicates);
   const bool was_run = is_compared(result.status) || result.status == LayoutStanding::outside_the_model;
   if (study.replicates.interval && was_run) add_doubts_of_need(study, runs, result);
   const std::vector<const Outflow*> outflows = finished_outflows(replicates);
@@ -227,12 +231,17 @@ LayoutResult result_of(const Layout& layout, const SceneResult& of_scene, const 
 
 }  // namespace
 
-std::vector<std::optional<double>> rates_of(const std::vector<Evaluation>& replicates) {
-  std::vector<std::optional<double>> rates;
+bool is_left_out(const Study& study, const Evaluation& run) {
+  return study.replicates.interval && run.stopped_flowing();
+}
+
+std::vector<std::optional<CountedRate>> rates_of(const std::vector<Evaluation>& replicates) {
+  std::vector<std::optional<CountedRate>> rates;
   for (const Evaluation& one : replicates) {
     const HoleOutflow* const all =
         one.finished() && !one.stopped_flowing() ? find_row(one.outflow, "all", "all") : nullptr;
-    rates.push_back(all && std::isfinite(all->mass_rate) ? std::optional(all->mass_rate) : std::nullopt);
+    rates.emplace_back();
+    if (all && std::isfinite(all->mass_rate)) rates.back() = {all->mass_rate, one.outflow.seeds()};
   }
   return rates;
 }

@@ -84,8 +84,11 @@ struct StudyResult {
   std::optional<Comparison> comparison;
 };
 
+/// Whether a run is in no figure: it clogged, and replicates are by need.
+bool is_left_out(const Study& study, const Evaluation& run);
+
 /// Mass rates (kg/s) of runs, as `enough_runs` takes them: none of a run that stopped flowing or did not finish.
-std::vector<std::optional<double>> rates_of(const std::vector<Evaluation>& replicates);
+std::vector<std::optional<CountedRate>> rates_of(const std::vector<Evaluation>& replicates);
 
 /// What is asked of each run of a scene.
 struct WantedOfRuns {

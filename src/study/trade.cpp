@@ -69,16 +69,19 @@ bool has_doubted_runs(const LayoutResult& layout) {
   });
 }
 
-/// Whether its rate is not known, so that nothing is said of it as a setting.
+bool has_sound_rate(const LayoutResult& layout) {
+  return layout.stopped_flowing == 0 && rate_of(layout) && !has_doubted_runs(layout);
+}
+
+/// Whether nothing is known of it as a setting; of what stopped flowing it is known that it will not do.
 bool is_unsound(const LayoutResult& layout) {
-  return layout.stopped_flowing == 0 && (!rate_of(layout) || has_doubted_runs(layout));
+  return layout.stopped_flowing == 0 && !has_sound_rate(layout);
 }
 
 Setting setting_of(const LayoutResult& layout, const Drill& drill, double value) {
   const std::optional<MeanWithInterval> rate = rate_of(layout);
   if (!rate) return {.value = value, .flowed = false};
-  Setting setting{
-      .value = value, .rate = rate->mean, .flowed = layout.stopped_flowing == 0 && !has_doubted_runs(layout)};
+  Setting setting{.value = value, .rate = rate->mean, .flowed = has_sound_rate(layout)};
   if (drill.streams() < 2) return setting;  // nothing to differ from
   const RowMeans& all = layout.rows.back();
   const auto& low = all["unevenness_cv_percent_low"];
@@ -89,19 +92,23 @@ Setting setting_of(const LayoutResult& layout, const Drill& drill, double value)
 }
 
 TradeLine line_of(const StudyResult& result, const Followed& along, const std::vector<std::size_t>& layouts) {
-  TradeLine line{.key = std::string(along.key), .layouts = layouts};
-  std::vector<Setting> settings;
-  std::vector<TiltedRate> rates;
-  for (const std::size_t i : layouts) {
-    const Layout& layout = result.study.layouts[i];
-    const double value = *along.of(result.study.scenes[*layout.scene]);
-    settings.push_back(setting_of(result.layouts[i], *layout.drill, value));
-    line.unsound += is_unsound(result.layouts[i]) ? 1 : 0;
-    if (const auto rate = rate_of(result.layouts[i])) rates.push_back({value, rate->mean, rate->half_width_95});
-  }
+  TradeLine line{.key = std::string(along.key), .layouts = layouts, .is_slope = along.is_slope};
+  const auto value_of = [&](std::size_t i) { return *along.of(result.study.scenes[*result.study.layouts[i].scene]); };
   if (along.is_slope) {
+    std::vector<TiltedRate> rates;
+    for (const std::size_t i : layouts) {
+      if (!has_sound_rate(result.layouts[i])) continue;
+      const MeanWithInterval rate = *rate_of(result.layouts[i]);
+      rates.push_back({value_of(i), rate.mean, rate.half_width_95});
+    }
+    line.unsound = layouts.size() - rates.size();
     line.slope = slope_sensitivity(rates);
     return line;
+  }
+  std::vector<Setting> settings;
+  for (const std::size_t i : layouts) {
+    settings.push_back(setting_of(result.layouts[i], *result.study.layouts[i].drill, value_of(i)));
+    line.unsound += is_unsound(result.layouts[i]) ? 1 : 0;
   }
   const double limit = result.study.layouts[layouts.front()].drill->cv_limit;
   line.shown = turn_down(settings, limit, Proof::shown);
@@ -116,10 +123,8 @@ std::vector<TradeLine> trade_lines(const StudyResult& result) {
   for (const std::string& key : result.study.keys) {
     const auto along = std::ranges::find(followed, key, &Followed::key);
     if (along == followed.end()) continue;
-    for (const std::vector<std::size_t>& layouts : lines_along(result, *along)) {
-      TradeLine line = line_of(result, *along, layouts);
-      if (line.slope || !along->is_slope) found.push_back(std::move(line));
-    }
+    for (const std::vector<std::size_t>& layouts : lines_along(result, *along))
+      found.push_back(line_of(result, *along, layouts));
   }
   return found;
 }

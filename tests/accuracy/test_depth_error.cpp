@@ -1,10 +1,12 @@
 #include "accuracy/depth_error.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
+#include "accuracy/accuracy_doubts.hpp"
 #include "input/read_scene.hpp"
 #include "support/study_files.hpp"
 
@@ -49,6 +51,36 @@ TEST(DepthError, NoneOfRunsOutsideTheModel) {
     return run;
   };
   EXPECT_FALSE(measure_depth_error(plane, space, 2, outside, one_job()));
+}
+
+TEST(DepthError, CarriesTheDoubtsOfItsRuns) {
+  const StudyFiles files;
+  const auto [plane, space] = read_in_both_spaces(files.seeder());
+  const Simulator warned = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = slow_3d(model, options);
+    if (model.scene.space == Space::three_dimensional && options.random_seed == 2)
+      run.warnings.push_back({DoubtKind::guard_warned, "deep"});
+    return run;
+  };
+  AccuracyResult result;
+  result.depth = measure_depth_error(plane, space, 3, warned, one_job());
+  ASSERT_TRUE(result.depth);
+  std::vector<std::string> texts;
+  for (const SharedDoubt& doubt : doubts_about(result, plane)) texts.push_back(remark_of(doubt).text);
+  EXPECT_THAT(texts,
+              testing::Contains("of the runs in 3D for the error of the depth: the guard warned in 1 of 3 runs"));
+}
+
+/// Else a tray that lets out nothing in 2D would err by -100 +- 0 %.
+TEST(DepthError, NoneWhereNothingFlows) {
+  const StudyFiles files;
+  const auto [plane, space] = read_in_both_spaces(files.seeder());
+  const Simulator dry_in_2d = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = slow_3d(model, options);
+    if (model.scene.space == Space::two_dimensional) run.events.clear();
+    return run;
+  };
+  EXPECT_FALSE(measure_depth_error(plane, space, 3, dry_in_2d, one_job()));
 }
 
 TEST(DepthError, NeedsTwoRuns) {

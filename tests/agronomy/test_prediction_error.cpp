@@ -73,12 +73,12 @@ class Users : public testing::Test {
 
 TEST_F(Users, AreHeldBeforeAndAfterWeighingAtNewSettingsToo) {
   constexpr int users = 2000;
-  int before = 0, after = 0, there = 0, near = 0;
+  int before = 0, after = 0, there = 0, near = 0, anew = 0;
   double narrowed = 0;
   const WeighedRates unweighed(error, spread, {});
   const FactorRange wide = unweighed.at(own).range;
   for (int k = 0; k < users; ++k) {
-    const double common = student() + normal(std::hypot(error.numerics, error.tolerance));
+    const double of_the_seed = student() + normal(error.numerics), common = of_the_seed + normal(error.tolerance);
     const double part = std::hypot(spread, own);
     const double setting = normal(part), other = normal(part);
     const double beside = near_share * setting + std::sqrt(1 - near_share * near_share) * normal(part);
@@ -92,8 +92,10 @@ TEST_F(Users, AreHeldBeforeAndAfterWeighingAtNewSettingsToo) {
     narrowed += std::log(range.high / range.low) / std::log(wide.high / wide.low) / users;
     there += holds(weighed.at(own, here).range, common + setting);
     near += holds(weighed.at(own, near_here).range, common + beside);
+    constexpr double drilled = 0.1;  // tolerance of other holes
+    anew += holds(weighed.at(own, here, drilled).range, of_the_seed + setting + normal(drilled));
   }
-  for (const int held : {before, after, there, near}) {
+  for (const int held : {before, after, there, near, anew}) {
     EXPECT_GE(held, 0.935 * users);
     EXPECT_LE(held, 0.965 * users);
   }
@@ -107,6 +109,15 @@ TEST_F(Users, WhoWeighAgainAtOneSettingLearnNothingMoreOfOthers) {
   EXPECT_NEAR(std::log(b.high / b.low) / std::log(a.high / a.low), 1, 0.01);
   const FactorRange there = often.at(0, here).range;
   EXPECT_LT(std::log(there.high / there.low), 0.01);
+}
+
+/// By a weighing without an error, at the same place, nothing but the two tolerances is left open.
+TEST_F(Users, WhoDrillAnewKeepTheToleranceOfBothHoles) {
+  const WeighedRates weighed(error, spread, {{here, 0.2, 1e-6, own}});
+  const WeighedRates::Answer anew = weighed.at(own, here, error.tolerance);
+  EXPECT_NEAR(std::log(anew.range.high / anew.range.low) / 2, normal_95 * std::sqrt(2.0) * error.tolerance,
+              0.05 * error.tolerance);
+  EXPECT_LT(anew.middle, std::exp(0.2)) << "a part of what was weighed may be the old holes'";
 }
 
 TEST_F(Users, AreToldOfARowThatContradictsTheOthers) {

@@ -159,6 +159,16 @@ TEST(RowMetrics, RefuseADrillOfAnotherTray) {
   EXPECT_THROW(metrics_of(scene, made_up_run(scene), a_hole_a_row(3)), std::invalid_argument);
 }
 
+/// Twice 80 seeds: the half width is t(0.975, 1) / sqrt(2 x 12) of a seed.
+TEST(RowMeans, OfEqualCountsAreNoSurerThanTheirCounts) {
+  const Scene scene = tray_3d(1);
+  const DrillMetrics one = metrics_of(scene, evenly(scene, {80}), a_hole_a_row(1));
+  const RowMeans row = row_means({&one, &one}).front();
+  for (const char* rate : {"rate_g_per_min", "seeds_per_s", "kg_per_ha", "seeds_per_m2"})
+    EXPECT_NEAR(*row[rate]->half_width_95 / row[rate]->mean, 12.7062 / std::sqrt(24.0) / 80, 1e-5) << rate;
+  EXPECT_EQ(*row["longest_pause_s"]->half_width_95, 0);
+}
+
 TEST(RowMeans, AreOverTheReplicatesAndBetweenRowsOfAllTogether) {
   const Scene scene = tray_3d(2);
   const DrillMetrics a = metrics_of(scene, evenly(scene, {80, 160}), a_hole_a_row(2));

@@ -102,7 +102,7 @@ TEST_F(Card, OfAWeighedTrayIsCorrectedAndNarrower) {
   const PlannedLayout& best = plan.layouts.front();
   const TableTray tray = table_tray(task, best);
   const std::vector<WeighedTray> weighed(1, {tray, 1.2 * predicted_rate(tray, table), 0.01});
-  const TrayRates rates = weighed_rates(weighed, table, model);
+  const TrayRates rates = weighed_rates(weighed.front().tray, weighed, table, model);
   const std::vector<CardRow> before = settings_card(planned(best), task, best.feed.rows);
   const std::vector<CardRow> after = settings_card(rates, task, best.feed.rows);
   int compared = 0;
@@ -125,7 +125,7 @@ TEST_F(Card, WidthsThatClogAreSaidTo) {
     mixed.seed.largest = largest;
     int count = 0;
     for (const CardRow& row : settings_card(rates, mixed, plan.layouts.front().feed.rows)) {
-      EXPECT_EQ(row.clogs, row.is_other_width && row.setting->width < kept_open_from * std::max(largest, 4e-3));
+      EXPECT_EQ(row.clogs, row.setting && row.setting->width < kept_open_from * std::max(largest, 4e-3));
       count += row.clogs ? 1 : 0;
     }
     return count;

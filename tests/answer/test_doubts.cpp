@@ -280,7 +280,7 @@ TEST_P(Doubts, AnAccuracyStudyTells) {
   grid.integrators = {Integrator::velocity_verlet};
   const AccuracyResult result =
       measure_accuracy(scene, screening_design(grid), 1, simulator(GetParam().kind), SweepOptions());
-  const std::vector<std::string> sentences = sentences_of(doubt_remarks(doubts_about(result.runs, scene), "setting"));
+  const std::vector<std::string> sentences = sentences_of(doubt_remarks(doubts_about(result, scene), "setting"));
   if (told == as_doubt) {
     EXPECT_THAT(sentences, Contains(HasSubstr(name())));
     EXPECT_THAT(sentences.front(), HasSubstr("settings 1 to "));

@@ -328,7 +328,7 @@ TEST_F(WidthsOf, CurvesTakeTheNoiseOfTheirSize) {
     const double deviation = 0.05 * 4e-3 / std::sqrt(repeats), part = deviation / (rising_norm * steep);
     EXPECT_NEAR(half_width(found.values[0]), normal_95 * part, 0.03 * part) << repeats;
     EXPECT_NEAR((found.predictions[3].high - found.predictions[3].low) / 2,
-                normal_95 * std::sqrt(2.0) * rising[3] / rising_norm * deviation, 0.1 * deviation)
+                normal_95 * deviation * std::hypot(1, rising[3] / rising_norm), 0.1 * deviation)
         << repeats;
   }
 }
@@ -342,9 +342,38 @@ TEST_F(WidthsOf, CurvesThatNoRunFollowsAreAsWideAsTheyAreOdd) {
   for (std::size_t v = 0; v < rising.size(); ++v) {
     const double share = rising[v] / rising_norm;
     EXPECT_NEAR((found.predictions[v].high - found.predictions[v].low) / 2,
-                normal_95 * odd * std::sqrt(1 + 2 * share * share), 0.05 * odd)
+                normal_95 * odd * std::sqrt(1 + share * share), 0.05 * odd)
         << v;
   }
+}
+
+/// The first two readings lie on a simulated curve; the others, which are held out, on none.
+TEST_F(WidthsOf, WhatIsHeldOutDoesNotWidenTheIntervalThatItIsTriedBy) {
+  const Values exact = [](double part, std::size_t, std::size_t) { return rising_by(1 + steep * (part - 0.5)); };
+  CalibrationChoices choices{.noise = 0.01};
+  choices.hold_out.after = 1.2;
+  const Calibration found = calibrated_by(one_key(curve_csv({1, 2, 3.5, 3.5}, 1), 12), choices, exact);
+  for (const PredictedValue& value : found.predictions) {
+    EXPECT_EQ(value.held_out, *value.time > 1.2);
+    EXPECT_EQ(value.measured < value.low || value.measured > value.high, value.held_out) << *value.time;
+  }
+}
+
+/// Three rates of slopes 1 to 3, one of them off by 0.06 of its logarithm, and one key: of chi squared two degrees of
+/// freedom are left, of which the probability is exp(-x / 2).
+TEST_F(WidthsOf, AMisfitIsJudgedByWhatTheFitLeavesFree) {
+  constexpr double noise = 0.02;
+  std::string csv = "tray.holes.width_mm,rate_g_per_s\n";
+  for (std::size_t k = 0; k < 3; ++k) csv += fmt::format("{},{}\n", 12 + 4 * k, k == 0 ? std::exp(0.06) : 1.0);
+  const Calibration found =
+      calibrated_by(one_key(csv, 36), {.noise = noise}, [](double part, std::size_t condition, std::size_t) {
+        return std::vector<double>{1e-3 * std::exp(static_cast<double>(condition + 1) * (part - 0.5))};
+      });
+  // Least squares: slope 0.06 / 14; what is left, 0.06^2 (1 - 1 / 14).
+  const double misfit = 0.06 * 0.06 * (1 - 1 / 14.0) / (noise * noise);
+  const double gone = 1 - 12 * noise * noise / 14;  // of the variance of the range
+  EXPECT_NEAR(found.misfit_over_noise, std::sqrt(misfit / (3 - gone)), 0.02);
+  EXPECT_NEAR(found.misfit_probability, std::exp(-misfit / 2), 0.05 * std::exp(-misfit / 2));
 }
 
 /// Four rates, of slopes 1 to 4, that are known up to a factor: least squares for a slope and a constant.
@@ -369,9 +398,8 @@ TEST_F(WidthsOf, RatesUpToAFactorAreThoseOfALine) {
     const double leverage = 0.25 + std::pow(static_cast<double>(k) - 1.5, 2) / 5;
     EXPECT_NEAR(half_width(found.predictions[k]), normal_95 * noise * std::sqrt(1 + leverage), 0.1 * noise) << k;
   }
-  // Chi squared is 4, of three degrees of freedom.
-  EXPECT_NEAR(found.misfit_probability,
-              std::erfc(std::sqrt(2.0)) + 2 * std::sqrt(2 / std::numbers::pi) * std::exp(-2.0), 2e-3);
+  // Chi squared is 4, of two degrees of freedom: four rates less a slope and a constant.
+  EXPECT_NEAR(found.misfit_probability, std::exp(-2.0), 2e-3);
   EXPECT_NEAR(*found.fitted_rms, noise, 0.02 * noise);
   EXPECT_FALSE(found.held_out_rms);
 }

@@ -57,6 +57,19 @@ TEST_F(CalibrationAnswerOf, AValueAtTheEdgeOfItsRangeIsSaidToBeAndGivesNoContact
   EXPECT_THAT(doubts(), ElementsAre(HasSubstr("the table says little of")));
 }
 
+/// Of a range from 1 to 100 along which logarithms are even, 2 % at each end are up to 1.0965 and from 91.2 on.
+TEST_F(CalibrationAnswerOf, AnEdgeOfALogarithmicRangeIsAPartOfIt) {
+  task_.keys[0] = {.key = "contact.friction", .low = 1, .high = 100, .logarithmic = true};
+  const auto edge = [&](double low, double high) {
+    calibration_.values[0] = {.mean = 10, .low = low, .high = high, .contraction = 0.3};
+    return answer().numbers[0].edge;
+  };
+  EXPECT_EQ(edge(1.09, 20), RangeEdge::lower);
+  EXPECT_EQ(edge(1.11, 20), RangeEdge::none);
+  EXPECT_EQ(edge(5, 92), RangeEdge::upper);
+  EXPECT_EQ(edge(5, 90), RangeEdge::none);
+}
+
 TEST_F(CalibrationAnswerOf, AMisfitThatDwarfsTheNoiseIsNoFit) {
   calibration_.misfit_probability = 1e-9, calibration_.misfit_over_noise = 2.9;
   EXPECT_TRUE(answer().is_fitted);

@@ -263,6 +263,17 @@ cmp -s one-job/sweep.csv whole.csv || fail "packed runs make other reports"
 a_run=$(basename "$a_case" .case)
 expect 0 "reports: of-a-run" export one-job --run "$a_run" --out of-a-run
 for file in run.json summary.csv outflow.csv; do have of-a-run/$file; done
+printf '%s\n' 'base = "seeder.toml"' 'replicates = 1' '[set]' 'seeds.wheat.number_fraction = "60 %"' \
+  'seeds.weed = { diameter = "3 mm", mass = "20 mg", number_fraction = "40 %" }' >mixed.toml
+expect 0 "reports: mixed" sweep mixed.toml --out mixed
+expect 0 "reports: mixed-one" export mixed --run "$(basename "$(find mixed/cases -name '*.case')" .case)" --out mixed-one
+expect 0 "reports: mixed-run" run seeder.toml --out mixed-run --set 'seeds.wheat.number_fraction="60 %"' --set 'seeds.weed.diameter="3 mm"' \
+  --set 'seeds.weed.mass="20 mg"' --set 'seeds.weed.number_fraction="40 %"'
+drawn() { sed -n '/"mixture"/,/"outflow"/p' "$1/run.json"; }
+[ -n "$(drawn mixed-one)" ] || fail "an exported run has no shares"
+[ "$(drawn mixed-one)" = "$(drawn mixed-run)" ] || fail "an exported run has other shares than the run: $(drawn mixed-one)"
+expect 0 "reports: high" run seeder.toml --out high --html --set tray.fill.count= --set 'tray.fill.height="14 mm"'
+grep -q "resumed run" messages && fail "a fill by its height is no resumed run: $(<messages)"
 expect 2 "its plan has no run nowhere" export one-job --run nowhere --out of-none
 expect 0 '"event":"end"' sweep study.toml --out one-job --progress json
 printf '%s\n' 'base = "seeder.toml"' 'replicates = { interval = "50 %", most = 12 }' > by-need.toml

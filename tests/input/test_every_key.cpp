@@ -468,6 +468,26 @@ TEST_F(EveryKey, SeedsAreAsManyAsTheSlicesMakeOfThem) {
   EXPECT_NEAR(back.plane.tray.rain->rate, 10.0 / 15, 1e-9);
 }
 
+/// It says which row each hole of the file's own space feeds, and changes no run.
+TEST_F(EveryKey, ADrillIsOfTheFilesOwnHoles) {
+  const std::vector<Override> rows = {parse_override("space=\"3d\""), parse_override("tray.holes.rows=2"),
+                                      parse_override("tray.holes.across=\"15 mm\""),
+                                      parse_override("drill.row_spacing=\"15 cm\""),
+                                      parse_override("drill.speed=\"8 km/h\"")};
+  const auto with_rows = [&](const std::string& list) {
+    std::vector<Override> all = rows;
+    all.push_back(parse_override("drill.hole_to_row=" + list));
+    return all;
+  };
+  const std::size_t holes = read_in_both_spaces(file(base), rows).space.tray.holes.size();
+  std::string list = "[1";
+  for (std::size_t k = 2; k <= holes; ++k) list += fmt::format(",{}", k);
+  const BothSpaces both = read_in_both_spaces(file(base), with_rows(list + "]"));
+  EXPECT_EQ(both.plane.tray.holes.size(), holes / 2);
+  EXPECT_EQ(both.space.tray.holes.size(), holes);
+  EXPECT_THROW(read_in_both_spaces(file(base), with_rows("[1]")), InputError);
+}
+
 TEST_F(EveryKey, AHeightIsTheSameInBothSpacesAndForEachCrop) {
   Lines high = base;
   lay_over(high, "tray.fill.count=");

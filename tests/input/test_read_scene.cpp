@@ -200,7 +200,7 @@ TEST(ReadScene, AnErrorOfGrainsIsThatOfGrains) {
   EXPECT_EQ(read(grains, {"accuracy=7 %"}).numerics.accuracy, AccuracyLevel::design);
   EXPECT_EQ(read(grains, {"accuracy=7.3 %"}).numerics.accuracy, AccuracyLevel::draft);
   EXPECT_THAT([&] { read(grains, {"accuracy=5 %"}); },
-              testing::ThrowsMessage<InputError>(testing::HasSubstr("with such seeds, 6.6 %")));
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("errs by up to 6.6 % with such seeds")));
 }
 
 TEST(ReadScene, OverridesAct) {

@@ -288,7 +288,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{12, "width = ['1 cm', '2 cm']", 12, "tray.holes.width", "lists 2 widths for 5 holes"},
         Case{9, "fill = { count = 6, jitter = 0.01 }", 9, "tray.fill.jitter", "poured seeds are dropped"},
         Case{1, "accuracy = 'finest'\n[seeds.wheat]", 1, "accuracy", "neither \"draft\", \"design\" nor"},
-        Case{1, "accuracy = '0.001 %'\n[seeds.wheat]", 1, "accuracy", "less than any level is known to err by"},
+        Case{1, "accuracy = '0.001 %'\n[seeds.wheat]", 1, "accuracy", "the finest level errs by up to"},
         Case{1, "accuracy = '-3 %'\n[seeds.wheat]", 1, "accuracy", "range"},
         Case{22, "+dt = '1e-5 s'\nsteps_per_contact = 20", 24, "numerics.steps_per_contact", "contradicts dt"},
         Case{20, "+funnel = '20 degree'", 21, "hopper.funnel", "needs holes"}));

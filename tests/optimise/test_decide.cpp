@@ -10,6 +10,7 @@
 #include "grains/random.hpp"
 #include "optimise/draft_screen.hpp"
 #include "report/decision_report.hpp"
+#include "report/decision_words.hpp"
 #include "scene/input_error.hpp"
 #include "support/rounds_of_runs.hpp"
 #include "support/study_files.hpp"
@@ -376,6 +377,45 @@ TEST_F(Drafts, OutsideTheModelRuleNothingOut) {
   EXPECT_TRUE(findings.screens);
   EXPECT_TRUE(findings.taking_part[0]);
   EXPECT_FALSE(findings.taking_part[1]);
+}
+
+/// A slice of a tray of 6 cm stands for twice as much as one of 3 cm: drafts that compared slices would rule out the
+/// better layouts.
+TEST(DraftScreens, CompareRatesOfTraysOfUnlikeDepthAsTheDecisionDoes) {
+  const StudyFiles files;
+  const Study study = read_study(
+      files.study("title = \"depths\"\n[set]\ncontact.shell_compression = 1e-5\n[vary]\ntray.depth = [\"3 cm\", \"6 "
+                  "cm\"]\ntray.holes.width = { from = \"10 mm\", to = \"20 mm\", step = \"1 mm\" }\n"));
+  DraftScreen screen(study, most_flow());
+  lead_to_the_end(screen, [](const Model& model, const SimulationOptions& options) {
+    return run_of(model, options, mean_seeds(model.scene), 4);
+  });
+  const DraftFindings findings = screen.findings();
+  ASSERT_TRUE(findings.screens);
+  EXPECT_FALSE(findings.taking_part[10]) << "3 cm deep and 20 mm wide: half of the best";
+  EXPECT_TRUE(findings.taking_part[21]) << "6 cm deep and 20 mm wide";
+  EXPECT_TRUE(findings.taking_part[20]) << "19 mm: within what drafts can tell";
+}
+
+/// Where all runs may clog, those that did count with the rates that they had, and it is said.
+TEST(Decide, RunsThatClogAreDoubtedWhereAllMayClog) {
+  const StudyFiles files;
+  const Study study = widths(files, "set.run.end_after_pause = \"1 s\"\n");
+  const Simulator all_clog = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = noisy_run(model, options);
+    run.end_reason = "no grain left", run.balance.inside = 20;
+    return run;
+  };
+  for (const double limit : {1.0, 0.5}) {
+    DecideOptions options = most_flow();
+    options.clogging_limit = limit;
+    StudyDecision decision(study, options);
+    const DecisionResult result = lead(decision, all_clog).result;
+    const bool counts = limit == 1;
+    EXPECT_EQ(result.scenes[2].goal.has_value(), counts);
+    EXPECT_EQ(doubts_text(result.scenes[2].doubts).find("stopped flowing in") != std::string::npos, counts);
+    EXPECT_EQ(metrics_sentence(result, 2).find("which count as they are") != std::string::npos, counts);
+  }
 }
 
 TEST_F(Drafts, OfDraftsAreRefused) {

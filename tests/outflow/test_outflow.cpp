@@ -195,6 +195,17 @@ TEST(Note, SaysWhatIsWrong) {
   EXPECT_EQ(measure_outflow(scene, run).note(), "");
 }
 
+/// Whether it is empty at the run's end is chance.
+TEST(Note, ATrayThatPassesItsRainAtOnceHasNotRunDry) {
+  Scene scene = made_up_scene(1);
+  scene.tray.rain.emplace();
+  vibrosow::Run run = sown(scene, 40, 40);
+  run.tray_empty_since = 9.9, run.tray_at_begin = 1, run.tray_at_end = 0;
+  EXPECT_EQ(measure_outflow(scene, run).note(), "");
+  scene.tray.rain->stop = 9.5;
+  EXPECT_EQ(measure_outflow(scene, run).note(), "ran dry at 9.9 s");
+}
+
 TEST(Note, ATrayThatDrainsIsNotAFullOne) {
   Scene scene = made_up_scene(1);
   const std::string drained = "drained in the window: 428 of the 500 seeds in the tray gone";

@@ -16,8 +16,9 @@ TEST(MeanWithInterval, UsesStudentsTOfTheTables) {
 
   // t(0.975, 1) = 12.7062, s = sqrt(2), n = 2
   EXPECT_NEAR(*mean_with_interval({4, 6}).half_width_95, 12.7062, 1e-4);
-  EXPECT_NEAR(*mean_with_interval({4, 6}, 1).half_width_95, 12.7062, 1e-4);
-  EXPECT_NEAR(*mean_with_interval({5, 5}, 1).half_width_95, 12.7062 / std::sqrt(24), 1e-4);
+  EXPECT_NEAR(*mean_of_rates({{4, 4}, {6, 6}}).half_width_95, 12.7062, 1e-4);
+  EXPECT_NEAR(*mean_of_rates({{5, 5}, {5, 5}}).half_width_95, 12.7062 / std::sqrt(24), 1e-4);
+  EXPECT_EQ(mean_of_rates({{5, 0}, {5, 0}}).half_width_95, 0) << "no counts";
 }
 
 TEST(MeanWithInterval, OneValueHasNoIntervalAndNoneHasNoMean) {

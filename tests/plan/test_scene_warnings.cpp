@@ -263,7 +263,8 @@ TEST(SceneWarnings, BallsInAThinLayerThatRollFreely) {
            [](Scene& scene) { scene.contact.rotation = false; },
            [](Scene& scene) { scene.lots[0].shape = Shape::clump; },
            [](Scene& scene) { std::get<HarmonicMotion>(*scene.tray.motion).direction = std::numbers::pi / 2; },
-           [](Scene& scene) { scene.tray.fill->count = 500; }, [](Scene& scene) { scene.tray.fill.reset(); }}) {
+           [](Scene& scene) { scene.tray.fill->count = 500; }, [](Scene& scene) { scene.tray.fill.reset(); },
+           [](Scene& scene) { scene.tray.funnel = 0.5; }, [](Scene& scene) { scene.tray.box = false; }}) {
     Scene mended = thin;
     mend(mended);
     EXPECT_THAT(scene_warnings(mended), Not(Contains(HasSubstr("roll on it"))));
@@ -342,6 +343,10 @@ TEST(SceneWarnings, InThePlaneARoundHoleIsTakenForASlot) {
   scene.tray.holes = {{0.25, 0.016, 0, HoleShape::round, 0, 0}};
   EXPECT_THAT(scene_warnings(scene), ElementsAre(StartsWith("tray.holes.shape: in 2D a round hole is taken for a slot "
                                                             "from front to back, 4.8 times the area of a round hole")));
+  scene.tray.slots_in_3d.rows = 2;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("from front to back, 2.4 times the area of its round holes"),
+                                                 StartsWith("tray.holes.rows: in 2D one hole stands for 2")));
+  scene.tray.slots_in_3d.rows = 1;
   scene.space = Space::three_dimensional;
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
 }

@@ -25,7 +25,7 @@ class CalibrationReport : public MadeUpCalibration {
 
 TEST_F(CalibrationReport, NamesWhatCannotBeToldApart) {
   calibration_.correlations[1].correlation = -0.93;
-  EXPECT_THAT(file("calibration.csv"), HasSubstr("\ncontact.friction,,0.1,0.8,0.4,0.3,0.5,60,depth_factor\n"));
+  EXPECT_THAT(file("calibration.csv"), HasSubstr("\ncontact.friction,,0.1,0.8,0.4,0.3,0.5,60,depth_factor,,yes\n"));
   EXPECT_THAT(file("contact.toml"), HasSubstr("uncertainty reduced by 60 %; not told apart from depth_factor"));
 }
 
@@ -36,6 +36,21 @@ TEST_F(CalibrationReport, WithoutAContactSaysSo) {
   EXPECT_THAT(calibration_table(answer()),
               testing::AllOf(testing::StartsWith("Doubtful: contact.friction lies at the upper edge"),
                              HasSubstr("No contact.toml is written")));
+}
+
+TEST_F(CalibrationReport, NothingFittedIsSaidBesideTheValues) {
+  calibration_.misfit_over_noise = 30;
+  EXPECT_THAT(file("calibration.csv"), HasSubstr(",fitted\ncontact.friction,,0.1,0.8,0.4,0.3,0.5,60,,,no\n"));
+  const auto data = nlohmann::json::parse(calibration_page_data(answer(), Scene{}));
+  EXPECT_EQ(data["headline"], "Nothing was fitted: no values within the ranges meet table.csv.");
+}
+
+/// Nowhere else are they all.
+TEST_F(CalibrationReport, ThePageHasEveryDoubt) {
+  runs_.resize(12);
+  for (std::size_t k = 0; k < runs_.size(); ++k) runs_[k] = {"", {}, {{static_cast<DoubtKind>(k), "so"}}};
+  ASSERT_GT(answer().doubts.size(), 10U);
+  EXPECT_EQ(nlohmann::json::parse(calibration_page_data(answer(), Scene{}))["remarks"].size(), answer().doubts.size());
 }
 
 TEST_F(CalibrationReport, SaysWhatWasLearnedInEightyColumns) {

@@ -53,8 +53,8 @@ class DecisionPage : public testing::Test {
 TEST_F(DecisionPage, SaysTheAnswerWithItsIntervalsAndWhatIsPromised) {
   EXPECT_EQ(
       data()["headline"],
-      "Layout 2 (frequency 8 Hz) is the best: rate 2.00 ± 0.10 g/s, 15.0 ± 1.0 g/s of the tray (2D: a slice times the "
-      "depth, its holes slots all across), clogged in 2 of 8 runs. "
+      "Layout 2 (frequency 8 Hz) is the best: rate 2.00 ± 0.10 g/s, 15.0 ± 1.0 g/s of the tray (2D: a slice's rate "
+      "times the depth; its holes are slots from front to back), clogged in 2 of 8 runs. "
       "It meets the rate and clogs in fewer than 5 % of runs. With a confidence of 95 %, no other layout "
       "that does so is more than 2 % better.");
   EXPECT_EQ(remarks(), left_out_);

@@ -49,12 +49,12 @@ TEST_F(RunPageData, TheHeadlineHasItsIntervalAndThreeMetrics) {
   EXPECT_EQ(
       data()["headline"],
       "2 holes let out 66.0 ± 1.2 g/s, 1650 ± 30 seeds/s (95 %, by blocks of this run), between 1 and 2 s: of the "
-      "whole tray, 16.5 times the slice that was simulated, its holes slots all across.");
+      "whole tray, 16.5 times the slice that was simulated, whose holes are slots from front to back.");
   run.events.resize(
       50);  // in five blocks 20, 20, 10, 0 and 0: a standard deviation of half the seeds, Student's t of 4 is 2.78
   EXPECT_EQ(data()["headline"],
             "2 holes let out 33 ± 41 g/s, 800 ± 1000 seeds/s (95 %, by blocks of this run), between 1 and 2 s: of the "
-            "whole tray, 16.5 times the slice that was simulated, its holes slots all across.");
+            "whole tray, 16.5 times the slice that was simulated, whose holes are slots from front to back.");
 }
 
 TEST_F(RunPageData, WithoutAnIntervalItSaysSo) {
@@ -87,6 +87,22 @@ TEST_F(RunPageData, SettingsAreWrittenAsAllNumbersAre) {
   EXPECT_EQ(page["hole_table"]["rows"][0][2], "100");
 }
 
+TEST_F(RunPageData, HolesOneBehindAnotherAreToldApart) {
+  const auto names = [&] {
+    std::vector<std::string> all;
+    const nlohmann::json page = data();
+    for (const nlohmann::json& one : page["hole_table"]["columns"]) all.push_back(one["name"].get<std::string>());
+    for (const nlohmann::json& row : page["hole_table"]["rows"]) EXPECT_EQ(row.size(), all.size());
+    return all;
+  };
+  EXPECT_THAT(names(), testing::Not(testing::Contains("from the front")));
+  scene.space = Space::three_dimensional;
+  scene.tray.depth = 0.06;
+  scene.tray.holes[0].across = 0.015, scene.tray.holes[1].across = 0.045;
+  EXPECT_THAT(names(), testing::Contains("from the front"));
+  EXPECT_EQ(data()["hole_table"]["rows"][1][3], "45");
+}
+
 TEST_F(RunPageData, WhatCanHardlyBeMeantIsADoubtToo) {
   scene.tray.holes[0].width = 3e-3;  // narrower than a seed
   const auto remarks = data()["remarks"];
@@ -110,7 +126,7 @@ TEST_F(RunPageData, MetricsOfTheWholeTrayFrom2DAreRemarkedOn) {
   const auto remarks = data()["remarks"];
   ASSERT_EQ(remarks.size(), 1U);
   EXPECT_EQ(remarks[0]["serious"], false);
-  EXPECT_THAT(remarks[0]["text"].get<std::string>(), testing::StartsWith("2D stands for the whole width"));
+  EXPECT_THAT(remarks[0]["text"].get<std::string>(), testing::StartsWith("2D stands for the whole depth"));
   scene.tray.depth.reset();
   EXPECT_TRUE(data()["remarks"].empty()) << "then figures are of the slice";
 }

@@ -119,6 +119,18 @@ TEST(Feeder, SaysThatItFallsBehind) {
   EXPECT_THAT(warning(), testing::HasSubstr(" of 300 seeds missing at 0.5 s"));
 }
 
+TEST(Feeder, SaysThatItsVesselWasTippedOver) {
+  Scene scene = kept_full(scattered_balls());
+  scene.tray.motion = TableMotion{{0, 0.05, 0.1, 0.2}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 1, 2.1, 2.1}, {}};
+  Fed fed(scene);
+  fed.walls.place(0.15);
+  fed.feeder.top_up(fed.state.grains, {}, fed.walls, 0.15);
+  const std::vector<std::string> warnings = fed.feeder.warnings(0.15);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "tray.fill.keep falls behind: 300 of 300 seeds missing at 0.15 s, as the tray was tipped over");
+}
+
 TEST(Feeder, LaysSeedsDownAsTheirVesselMoves) {
   for (const Space space : {Space::two_dimensional, Space::three_dimensional})
     for (const VesselMotion& motion :

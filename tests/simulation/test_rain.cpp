@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "grains/places.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
 #include "vessel/vessel_motion.hpp"
@@ -60,6 +63,35 @@ TEST(Rain, ThatFellBehindForAWhileIsTold) {
   EXPECT_THAT(told(run), testing::ElementsAre(testing::MatchesRegex(
                              "tray.rain falls behind: at 0.* s [0-9]+ of [0-9]+ seeds waited for want of room, and "
                              "they came later.*")));
+}
+
+/// Of a disc's area a quarter lies within half its radius, and as much in each of eight sectors.
+TEST(Rain, OnARoundVesselIsEvenOverItsFloor) {
+  Vessel vessel;
+  vessel.plan = Plan::round;
+  vessel.length = 0.1, vessel.depth = 0.1;
+  constexpr double radius = 2e-3, room = 0.05 - radius;
+  constexpr int seeds = 20000;
+  Random random(3);
+  int within = 0;
+  std::array<int, 8> sectors{};
+  for (int k = 0; k < seeds; ++k) {
+    const FloorPlace from_middle = random_place(vessel, radius, radius, 0.1 - radius, random) - FloorPlace(0.05, 0.05);
+    ASSERT_LE(from_middle.norm(), room * (1 + 1e-12));
+    within += from_middle.norm() < room / 2 ? 1 : 0;
+    const double turn = std::atan2(from_middle.y(), from_middle.x()) / (2 * std::numbers::pi);
+    ++sectors.at(static_cast<std::size_t>(8 * (turn < 0 ? turn + 1 : turn)) % 8);
+  }
+  const auto expect_share = [&](int count, double share) {
+    EXPECT_NEAR(count, share * seeds, 4 * std::sqrt(share * (1 - share) * seeds));
+  };
+  expect_share(within, 0.25);
+  for (const int count : sectors) expect_share(count, 0.125);
+  for (const double edge : {radius, 0.1 - radius}) {  // where the floor has no width
+    const FloorPlace place = random_place(vessel, radius, edge, edge, random);
+    EXPECT_NEAR(place.x(), edge, 1e-12);
+    EXPECT_NEAR(place.y(), 0.05, 1e-9);
+  }
 }
 
 TEST(Rain, ThroughTheHolesTheBalanceHolds) {

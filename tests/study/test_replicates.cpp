@@ -10,12 +10,12 @@
 namespace vibrosow {
 namespace {
 
-using Rates = std::vector<std::optional<double>>;
+using Rates = std::vector<std::optional<CountedRate>>;
 
 /// To and fro about 1.
 Rates even_rates(int runs, double scatter) {
   Rates rates;
-  for (int k = 0; k < runs; ++k) rates.push_back(1 + scatter * (k % 2 == 0 ? 1 : -1));
+  for (int k = 0; k < runs; ++k) rates.push_back(CountedRate{1 + scatter * (k % 2 == 0 ? 1 : -1), 0});
   return rates;
 }
 
@@ -27,6 +27,15 @@ TEST(Replicates, TenAtLeastAndThenTheFirstNumberThatIsEnough) {
   EXPECT_EQ(enough_runs(even_rates(40, 0.04), wanted), 19);
   EXPECT_EQ(enough_runs(even_rates(19, 0.04), wanted), 19) << "depends on no later run";
   EXPECT_EQ(enough_runs(even_rates(18, 0.04), wanted), std::nullopt);
+}
+
+/// t(0.975, 9) / sqrt(10 x 12) = 0.2065 of a seed.
+TEST(Replicates, RunsOfEqualCountsAreNoSurerThanTheirCounts) {
+  const auto equal = [](double seeds) { return Rates(10, CountedRate{1, seeds}); };
+  const Replicates wanted{.interval = 0.02, .most = 40};
+  EXPECT_EQ(enough_runs(equal(11), wanted), 10);
+  EXPECT_EQ(enough_runs(equal(10), wanted), std::nullopt);
+  EXPECT_EQ(runs_to_go_to(equal(10), wanted), 11);
 }
 
 TEST(Replicates, RunsThatClogAreNotCounted) {
@@ -134,6 +143,52 @@ TEST_F(ByNeed, RoundsGoOnUntilTheIntervalIsNarrow) {
   EXPECT_LE(*rate.half_width_95, 0.05 * rate.mean);
   all.replicates = {60};  // as if another had made more
   EXPECT_EQ(sweep(study.study, simulator_, all).runs.at(0).size(), result.runs.at(0).size());
+}
+
+/// The runs that flowed say little of a layout of which most, or all, clog.
+TEST_F(ByNeed, ALayoutThatMostlyClogsIsDoubtful) {
+  const PlannedStudy study = planned(R"({ interval = "5 %", most = 10 })");
+  for (const auto& [clogging, status, told] :
+       {std::tuple(2, LayoutStanding::ok, "clogged in 2 of 10 runs, which are left out"),
+        std::tuple(6, LayoutStanding::doubtful, "clogged in 6 of 10 runs, which are left out"),
+        std::tuple(10, LayoutStanding::doubtful, "stopped flowing in 10 of 10 runs")}) {
+    SweepOptions all;
+    all.replicates = {10};
+    const StudyResult result = sweep(
+        study.study,
+        [&](const Model& model, const SimulationOptions& options) {
+          vibrosow::Run run = quick_run(model, options);
+          if (static_cast<int>(options.random_seed) <= clogging) run.end_reason = "no more", run.balance.inside = 20;
+          return run;
+        },
+        all);
+    EXPECT_EQ(result.layouts[0].status, status) << clogging;
+    EXPECT_NE(doubts_text(result.layouts[0].doubts).find(told), std::string::npos)
+        << doubts_text(result.layouts[0].doubts);
+  }
+}
+
+/// Holes 1 to 3 let out 5 n + k / 2 seeds/s in run k, and half of that in runs that clog.
+TEST_F(ByNeed, MeasuredOutflowIsComparedWithTheRunsThatFlowed) {
+  files_.write("bench.csv", "hole,seeds_per_s\n1,9.5\n");
+  const Study study = read_study(files_.study(
+      "replicates = { interval = \"5 %\", most = 12 }\n[measured]\nfile = \"bench.csv\"\nscale = \"none\"\n"));
+  SweepOptions all;
+  all.replicates = {12};
+  const StudyResult result = sweep(
+      study,
+      [](const Model& model, const SimulationOptions& options) {
+        vibrosow::Run run = quick_run(model, options);
+        if (options.random_seed > 6) return run;
+        std::erase_if(run.events, [](const OutflowEvent& event) { return event.time > 3; });
+        run.end_reason = "no more", run.balance.inside = 20;
+        return run;
+      },
+      all);
+  // Runs 7 to 12: 9.75 seeds/s from hole 1.
+  EXPECT_NEAR(result.layouts[0].holes[0].seeds_per_s->mean, 9.75, 1e-9);
+  EXPECT_NEAR(result.comparison->rows[0].simulated.mean, 9.75, 1e-9);
+  EXPECT_NEAR(*result.layouts[0].holes[0].difference_percent, 100 * (9.75 / 9.5 - 1), 1e-9);
 }
 
 TEST_F(ByNeed, APlanOfALaterRoundIsReadBack) {

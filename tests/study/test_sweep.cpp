@@ -105,6 +105,24 @@ TEST(Sweep, GuardAndRefusalGiveAStatusAndAReason) {
   EXPECT_EQ(result.layouts[2].replicates, 2);
 }
 
+/// Its figures are of the runs that finished, and so are its doubts.
+TEST(Sweep, ALayoutOfWhichRunsAreMissingOrStoppedKeepsTheDoubtsOfTheOthers) {
+  const StudyFiles files;
+  const Study study = read_study(files.study("replicates = 3\n"));
+  for (const RunStatus status : {RunStatus::interrupted, RunStatus::stopped_by_guard}) {
+    const Simulator last_is_cut_short = [&](const Model& model, const SimulationOptions& options) {
+      vibrosow::Run run = quick_run(model, options);
+      run.warnings.push_back({DoubtKind::guard_warned, "deep"});
+      if (options.random_seed == 3) run.status = status;
+      return run;
+    };
+    const LayoutResult layout = sweep(study, last_is_cut_short, with_jobs(1)).layouts[0];
+    EXPECT_FALSE(is_compared(layout.status));
+    EXPECT_EQ(layout.replicates, 2);
+    EXPECT_THAT(doubts_text(layout.doubts), HasSubstr("the guard warned in 2 of 2 runs"));
+  }
+}
+
 TEST(Sweep, ALayoutOutsideTheModelDecidesNothing) {
   const StudyFiles files;
   files.write("bench.csv", "tray.holes.count,hole,seeds_per_s\n3,1,12\n3,2,22\n5,1,12\n5,2,22\n");

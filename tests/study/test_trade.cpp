@@ -136,5 +136,29 @@ tray.motion.frequency = ["10 Hz", "20 Hz"]
   EXPECT_NEAR(lines[3].not_excluded->ratio, 2, 1e-9);
 }
 
+/// At 5 degrees the guard warned, so that two tilts are left; at 5 Hz all clogs, and none is.
+TEST(Trade, SlopeIsOfSoundRatesAlone) {
+  const StudyFiles files;
+  const StudyResult result = swept(with_drill(files, R"([vary]
+tray.tilt = ["-5 degree", "0 degree", "5 degree"]
+tray.motion.frequency = ["5 Hz", "10 Hz"]
+)"),
+                                   [](const Model& model, const SimulationOptions& options) {
+                                     vibrosow::Run run = by_frequency(model, options);
+                                     if (model.scene.tray.tilt > 0.01)
+                                       run.warnings.push_back({DoubtKind::guard_warned, "the overlap was large"});
+                                     return run;
+                                   });
+  const auto lines = trade_lines(result);
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_TRUE(lines[0].is_slope);
+  EXPECT_EQ(lines[0].unsound, 3u);
+  EXPECT_FALSE(lines[0].slope);
+  EXPECT_EQ(lines[1].unsound, 1u);
+  ASSERT_TRUE(lines[1].slope);
+  EXPECT_NEAR(lines[1].slope->change * std::numbers::pi / 180, 0.02, 1e-9);
+  EXPECT_FALSE(lines[1].slope->off_line) << "a line goes through two";
+}
+
 }  // namespace
 }  // namespace vibrosow
