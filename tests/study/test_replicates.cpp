@@ -156,9 +156,9 @@ TEST_F(ByNeed, ALayoutThatMostlyClogsIsDoubtful) {
     all.replicates = {10};
     const StudyResult result = sweep(
         study.study,
-        [&](const Model& model, const SimulationOptions& options) {
+        [last = clogging](const Model& model, const SimulationOptions& options) {
           vibrosow::Run run = quick_run(model, options);
-          if (static_cast<int>(options.random_seed) <= clogging) run.end_reason = "no more", run.balance.inside = 20;
+          if (static_cast<int>(options.random_seed) <= last) run.end_reason = "no more", run.balance.inside = 20;
           return run;
         },
         all);
