@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -26,16 +27,18 @@ struct Family {
   double clogging;  // share of runs that clog
 };
 
-/// Rates of mean 1.
-std::vector<std::optional<double>> rates_of(const Family& family, int runs, std::mt19937_64& random) {
+using Rates = std::vector<std::optional<CountedRate>>;
+
+/// Of mean 1, of so many seeds that counting leaves nothing open.
+Rates rates_of(const Family& family, int runs, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
-  std::vector<std::optional<double>> rates;
+  Rates rates;
   for (int k = 0; k < runs; ++k) {
     const double deviate = normal(random), clogs = uniform(random);
     const double rate = family.skewed > 0 ? std::exp(family.skewed * deviate - family.skewed * family.skewed / 2)
                                           : 1 + family.cv * deviate;
-    rates.push_back(clogs < family.clogging ? std::nullopt : std::optional(rate));
+    rates.push_back(clogs < family.clogging ? std::nullopt : std::optional(CountedRate{rate, 0}));
   }
   return rates;
 }
@@ -46,9 +49,9 @@ struct Rounds {
   bool reached;
 };
 
-Rounds rounds_of(const std::vector<std::optional<double>>& rates, const Replicates& wanted) {
+Rounds rounds_of(const Rates& rates, const Replicates& wanted) {
   int made = wanted.first();
-  const auto so_far = [&] { return std::vector<std::optional<double>>(rates.begin(), rates.begin() + made); };
+  const auto so_far = [&] { return Rates(rates.begin(), rates.begin() + made); };
   for (int next = runs_to_go_to(so_far(), wanted); next > made; next = runs_to_go_to(so_far(), wanted)) made = next;
   const auto enough = enough_runs(so_far(), wanted);
   return {made, enough.value_or(made), enough.has_value()};
@@ -63,7 +66,7 @@ void write_family(std::ostream& out, const Family& family, const Replicates& wan
     const Rounds rounds = rounds_of(rates, wanted);
     std::vector<double> values;
     for (int k = 0; k < rounds.used; ++k)
-      if (rates[static_cast<std::size_t>(k)]) values.push_back(*rates[static_cast<std::size_t>(k)]);
+      if (const auto& rate = rates[static_cast<std::size_t>(k)]) values.push_back(rate->rate);
     const MeanWithInterval mean = mean_with_interval(values);
     const bool holds = std::abs(mean.mean - 1) <= mean.half_width_95.value_or(0);
     const bool skewed = look_skewed(values);
