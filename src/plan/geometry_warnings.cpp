@@ -271,7 +271,7 @@ class CoveredHoles {
   void warn_of_own(Warnings& warnings) {
     for (std::size_t k = 0; k < vessel_.pieces.size(); ++k) {
       const Copies copies = with_images(vessel_, vessel_.pieces[k]);
-      const std::string holes = beside([&](const Hole&) { return copies; });
+      const std::string holes = beside([&](const Hole&) -> const Copies& { return copies; });
       if (!holes.empty())
         warnings.push_back(
             fmt::format("{} covers {}: what is drawn across a hole is a wall there", name_of_piece(vessel_, k), holes));
