@@ -310,7 +310,7 @@ class CoveredHoles {
     std::string holes;
     for (std::size_t h = 0; h < vessel_.holes.size(); ++h) {
       const Hole& hole = vessel_.holes[h];
-      const Copies copies = copies_at(hole);
+      const Copies& copies = copies_at(hole);
       if (copies.empty()) continue;
       // Nothing comes from aside between the floor and what lies half a seed over it, and nothing leaves between what
       // lies a seed under the hole and the hole.
