@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 constexpr std::size_t points_predicted = 2048;
 constexpr double normal_95 = 1.959964;
-constexpr double least_freedom = 0.5;  // fewer degrees of freedom leave nothing to judge a misfit by
+constexpr double least_freedom = 1;
 
 /// Some values of one measured series that are fitted, or predicted, together.
 struct Part {
@@ -218,13 +218,14 @@ class Fit {
 
   /// By the best point's misfit. Its degrees of freedom are the values less the numbers that they determine: a key
   /// counts by how much of its range's variance is gone (Spiegelhalter et al. 2002, effective number of parameters).
+  /// At least one: as many keys as values meet these to the digit, or else the table lies outside what they can give.
   void judge() {
     double freedom = result_.fitted_values - (result_.depth_factor ? 1 : 0);
     for (const FittedValue& value : result_.values) {
       const double deviation_left = std::min(1.0, 1 - value.contraction);
       freedom -= 1 - deviation_left * deviation_left;
     }
-    if (freedom < least_freedom) return;
+    freedom = std::max(freedom, least_freedom);
     const double misfit = std::max(0.0, result_.posterior.least_misfit);
     result_.misfit_probability = chi_squared_above(freedom, misfit);
     result_.misfit_over_noise = std::sqrt(misfit / freedom);

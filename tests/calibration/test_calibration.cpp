@@ -404,6 +404,20 @@ TEST_F(WidthsOf, RatesUpToAFactorAreThoseOfALine) {
   EXPECT_FALSE(found.held_out_rms);
 }
 
+/// One rate and one key, whose range gives e^-1 to e^1 of it: a rate of e^1.5 is missed by 0.5, of e^0.5 by nothing.
+TEST_F(WidthsOf, ARateBeyondTheRangeOfItsOnlyKeyIsMissed) {
+  constexpr double noise = 0.02;
+  const Values exact = [](double part, std::size_t, std::size_t) {
+    return std::vector<double>{1e-3 * std::exp(steep * (part - 0.5))};
+  };
+  const auto missed = [&](double log_rate) {
+    const std::string csv = fmt::format("rate_g_per_s\n{}\n", std::exp(log_rate));
+    return calibrated_by(one_key(csv, 12), {.noise = noise}, exact).misfit_over_noise;
+  };
+  EXPECT_NEAR(missed(1.5), 0.5 / noise, 0.5);
+  EXPECT_NEAR(missed(0.5), 0, 0.05);
+}
+
 TEST_F(CalibrationOf, RunsThatClogAreLeftOutOfCurves) {
   CalibrationTask of = task("time_s,mass_g\n0.5,1\n1,2\n1.5,3\n2,4\n");
   of.measured.time_zero = 2;
