@@ -32,13 +32,21 @@ struct HoleOutflow {
   double longest_pause = 0;  // s
 };
 
+/// What speaks against a run's figures.
+struct Doubt {
+  std::string kind;        // "ran dry", as in run.json
+  bool serious = false;    // the figures may be wrong, not only less sure
+  std::string text;        // what happened: "ran dry at 3.2 s"
+  std::string what_to_do;  // empty where there is nothing
+};
+
 /// What one run of a scene comes to.
 struct Evaluation {
   bool finished = false;
-  std::string reason;               // why it was refused or stopped by the guard, or ended early
-  std::vector<std::string> doubts;  // what speaks against the figures: "ran dry at 3.2 s"; none where all is well
-  bool outside_the_model = false;   // it went on past the guard's usual limits: nothing is to be decided by it
-  double end_time = 0;              // s
+  std::string reason;              // why it was refused or stopped by the guard, or ended early
+  std::vector<Doubt> doubts;       // none where all is well
+  bool outside_the_model = false;  // it went on past the guard's usual limits: nothing is to be decided by it
+  double end_time = 0;             // s
   Balance balance;
   std::vector<HoleOutflow> holes;  // by hole and lot, the last row of all; empty where refused
   /// Fraction: coefficient of variation of the holes' rates, chance taken out; none for one hole, or where they are not

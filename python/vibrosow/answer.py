@@ -1,9 +1,7 @@
 """What `vibrosow decide`, `optimise`, `accuracy` and `calibrate` write."""
 from functools import cached_property
 
-import pandas
-
-from .folder import Folder, NotAReport, read_json
+from .folder import Folder, NotAReport, count_of, doubts_table, read_json
 from .run import Run
 from .study import Study
 
@@ -14,7 +12,6 @@ FILES = {
     "accuracy": ("accuracy.csv", "promise.json"),
     "calibrate": ("calibration.csv", None),
 }
-DOUBTS = ["kind", "serious", "text", "what_to_do", "layouts", "runs", "of_runs"]
 
 
 class Answer:
@@ -34,19 +31,17 @@ class Answer:
 
     @cached_property
     def doubts(self):
-        """What speaks against the runs of the layouts that the answer names, a row each; empty where nothing does."""
-        doubts = self.info.get("doubts")
-        if doubts is None and (self.folder / "report.json").exists():  # of commands whose page alone has them, without kind and runs
-            doubts = read_json(self.folder / "report.json").get("remarks", [])
-        named = "settings" if self.command == "accuracy" else "layouts"  # what the numbers are of
-        return pandas.DataFrame(doubts or [], columns=[named if column == "layouts" else column for column in DOUBTS])
+        """What speaks against the runs of the layouts (of accuracy: settings) that the answer names, a row each; empty where nothing does,
+        None in a folder that does not tell."""
+        named = "settings" if self.command == "accuracy" else "layouts"
+        return doubts_table(self.info, named) if "doubts" in self.info else self._folder.doubts(named)
 
     def table(self, name):
         """Another CSV file of the folder, such as "posterior.csv" or "accuracy_runs.csv"; None where there is none."""
         return self._folder.table(name)
 
     def __repr__(self):
-        return f"<vibrosow {self.command}: {self.folder}, {len(self.rows)} rows, {len(self.doubts)} doubts>"
+        return f"<vibrosow {self.command}: {self.folder}, {len(self.rows)} rows, {count_of(self.doubts)}>"
 
 
 def command_of(folder):

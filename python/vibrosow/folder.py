@@ -61,6 +61,15 @@ def share_of_tray(depth_factors):
     return "of the tray" if whole == {True} else "of the 2D slice" if True not in whole else "of the 2D slice or the tray"
 
 
+def doubts_table(content, named):
+    """The doubts in a JSON object of the program's, a row each; `named`: what their numbers are of."""
+    return pandas.DataFrame(content["doubts"], columns=["kind", "serious", "text", "what_to_do", named, "runs", "of_runs"])
+
+
+def count_of(doubts):
+    return "doubts not known" if doubts is None else f"{len(doubts)} doubt{'' if len(doubts) == 1 else 's'}"
+
+
 class Folder:
     """The reports of one command in one folder. NotAReport where it holds none of them, Incomplete where files.json says so, MissingFile
     where only some of the `needed` are there. Committed reports have no files.json: then the needed files tell."""
@@ -92,3 +101,8 @@ class Folder:
     def table(self, name):
         """The DataFrame of a CSV file; None where the command had none to write."""
         return read_table(self.path / name) if name in self.listed or (self.path / name).exists() else None
+
+    def doubts(self, named):
+        """Those of doubts.json; None without it."""
+        path = self.path / "doubts.json"
+        return doubts_table(read_json(path), named) if "doubts.json" in self.listed or path.exists() else None

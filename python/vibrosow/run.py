@@ -5,7 +5,7 @@ from functools import cached_property
 
 import pandas
 
-from .folder import Folder, read_json, share_of_tray
+from .folder import Folder, count_of, read_json, share_of_tray
 from .recording import Recording
 
 
@@ -50,7 +50,7 @@ class Run:
         return pandas.DataFrame(self.info.get("doubts", []), columns=["kind", "serious", "text", "what_to_do"])
 
     def __repr__(self):
-        return f"<vibrosow run: {self.folder}, {self.info['status']}, {self.total.rate_g_per_s:.3g} g/s, {len(self.doubts)} doubts>"
+        return f"<vibrosow run: {self.folder}, {self.info['status']}, {self.total.rate_g_per_s:.3g} g/s, {count_of(self.doubts)}>"
 
     def snapshot(self, number, what="grains"):
         """Every grain (or what="fields": every cell) of a snapshot, by its number in `snapshots`. KeyError for another number."""

@@ -10,7 +10,7 @@ from functools import cached_property
 
 import pandas
 
-from .folder import Folder, ProgramError, VibrosowError, read_json, share_of_tray
+from .folder import Folder, ProgramError, VibrosowError, count_of, read_json, share_of_tray
 from .run import Run
 
 FIGURES = {  # columns of sweep.csv that have an interval
@@ -41,6 +41,11 @@ class Study:
     totals = cached_property(lambda self: self._holes[self._holes.hole == "all"])  # of all holes together
     records = cached_property(lambda self: self._folder.table("sweep_records.csv"))  # None without [record]
     comparison = cached_property(lambda self: self._folder.table("comparison.csv"))  # None without a measurement
+
+    @cached_property
+    def doubts(self):
+        """What speaks against the runs of the layouts, a row each; empty where nothing does, None in a folder that does not tell."""
+        return self._folder.doubts("layouts")
 
     @cached_property
     def plan(self):
@@ -91,7 +96,7 @@ class Study:
         return run
 
     def __repr__(self):
-        return f"<vibrosow sweep: {self.folder}, {len(self.layouts)} layouts, {(self.layouts.status != 'ok').sum()} of them not ok>"
+        return f"<vibrosow sweep: {self.folder}, {len(self.layouts)} layouts, {(self.layouts.status != 'ok').sum()} of them not ok, {count_of(self.doubts)}>"
 
     def intervals(self, figure="rate_g_per_s"):
         """`value`, `low` and `high` of a figure by layout, in its column's unit: the mean over the replicates and its 95 % interval, NaN

@@ -57,7 +57,7 @@ ModelError model_error(const std::vector<double>& log_ratios) {
 }
 
 FactorRange expected_range(const PredictionError& error) {
-  return WeighedRates(error, 0, {}).at(error.chance).range;
+  return WeighedRates(error, {}).at(error.chance).range;
 }
 
 double half_width_of_normal(double deviation) {
@@ -68,16 +68,19 @@ double deviation_of_half_width(double half_width) {
   return std::asinh(half_width) / normal_quantile(1 - tail);
 }
 
-double half_width_of_model(const ModelError& model) {
-  if (model.materials == 0) return 0;
-  return std::sinh(students_t_quantile(model.materials, 1 - tail) * model.scale);
+double half_width_of_model(const PredictionError& error) {
+  const ModelError& model = error.model;
+  if (model.materials == 0) return half_width_of_normal(error.setting);
+  if (error.setting == 0) return std::sinh(students_t_quantile(model.materials, 1 - tail) * model.scale);
+  const FactorRange range = expected_range({.model = model, .setting = error.setting});
+  return 0.5 * (range.high - range.low);
 }
 
-WeighedRates::WeighedRates(const PredictionError& error, double setting_spread, std::vector<Weighing> weighings)
+WeighedRates::WeighedRates(const PredictionError& error, std::vector<Weighing> weighings)
     : tolerance_(square(error.tolerance)),
       numerics_(square(error.numerics)),
       variances_(drawn_variances(error.model)),
-      setting_spread_(setting_spread),
+      setting_spread_(error.setting),
       weighings_(std::move(weighings)) {}
 
 double common_share(const SettingPlace& a, const SettingPlace& b) {

@@ -22,12 +22,13 @@ struct ModelError {
 ModelError model_error(const std::vector<double>& log_ratios);
 
 /// What a predicted rate errs by, in four parts that are independent of each other: standard deviations of
-/// ln(true rate / predicted rate). The model's part is Student's, the others are normal.
+/// ln(true rate / predicted rate). The model's part is Student's and `setting` together, the others are normal.
 struct PredictionError {
   double chance = 0;     // so many seeds were counted
   double numerics = 0;   // softness and step; between the places of a table
   double tolerance = 0;  // what is built is not what was drawn
-  ModelError model{};
+  ModelError model{};    // one of the seed, at all settings alike
+  double setting = 0;    // what the model errs by at this setting more or less than at others
 };
 
 /// What a predicted rate is multiplied by to have the ends of a range.
@@ -40,7 +41,7 @@ FactorRange expected_range(const PredictionError& error);
 
 /// One part alone, as the half width of its 95 %: of the rate itself, (high - low) / 2 of `expected_range`.
 double half_width_of_normal(double deviation);
-double half_width_of_model(const ModelError& model);
+double half_width_of_model(const PredictionError& error);
 
 /// The deviation of a normal whose half width is this: the inverse of `half_width_of_normal`.
 double deviation_of_half_width(double half_width);
@@ -63,13 +64,13 @@ struct Weighing {
 /// What weighings say of predictions at other settings of the same seed and tray:
 ///   ln(truth / predicted) = F + s(setting)
 /// F is one for the seed and the tray as it is built: the model's error, the tolerance and the numerics; s is the
-/// setting's own, normal: `setting_spread`, and chance and interpolation of its prediction; settings near each other
-/// have a share of it in common. A weighing adds its own error. Student's t is a normal whose variance is drawn, so all
-/// is a mixture of normals.
+/// setting's own, normal: `PredictionError::setting`, and chance and interpolation of its prediction; settings near
+/// each other have a share of it in common. A weighing adds its own error. Student's t is a normal whose variance is
+/// drawn, so all is a mixture of normals.
 class WeighedRates {
  public:
   /// `error.chance` is left out: each prediction has its own.
-  WeighedRates(const PredictionError& error, double setting_spread, std::vector<Weighing> weighings);
+  WeighedRates(const PredictionError& error, std::vector<Weighing> weighings);
 
   /// The range of a prediction, and its middle (median), as factors of what was predicted. Without a setting: of one
   /// that is far from all that were weighed.

@@ -247,7 +247,8 @@ PredictionError table_error(const HoleTable& table, const HoleConditions& condit
       .chance = table.at(conditions).value().chance / normal_95,
       .numerics = std::hypot(interpolation, softness_error(conditions.aspect)) / normal_95,
       .tolerance = tolerance_deviation({slopes.width / (conditions.width * diameter), slopes.peak_speed}, tolerance),
-      .model = model};
+      .model = model,
+      .setting = table.factor_spread(kept_open_from)};
 }
 
 double SowingPlan::unknown_to_table(const PlannedLayout& layout) const {

@@ -38,7 +38,7 @@ SettingPlace place_of(const TableTray& tray) {
   return {std::log2(tray.at.peak_speed), tray.at.depth / 3, tray.at.width};
 }
 
-/// The error that all settings of a tray have in common: what is not chance and interpolation.
+/// The error of a tray's settings but for chance and interpolation, which each has of its own.
 PredictionError common_error(const TableTray& tray, const HoleTable& table, const ModelError& model) {
   PredictionError error = table_error(table, tray.at, tray.seed.diameter, model);
   error.chance = 0;
@@ -57,12 +57,9 @@ Weighing weighing_of(const TableTray& tray, double mass_rate, double deviation, 
   return {place_of(tray), std::log(mass_rate / predicted_rate(tray, table)), deviation, own_deviation(tray, table)};
 }
 
-TrayRates::TrayRates(const TableTray& tray, const HoleTable& table, const ModelError& model, double setting_spread,
+TrayRates::TrayRates(const TableTray& tray, const HoleTable& table, const ModelError& model,
                      std::vector<Weighing> weighings, const ShakerLimits& limits)
-    : tray_(tray),
-      table_(table),
-      model_(model),
-      rates_(common_error(tray_, table, model), setting_spread, std::move(weighings)) {
+    : tray_(tray), table_(table), model_(model), rates_(common_error(tray_, table, model), std::move(weighings)) {
   const Span within{peak_speed(tray_, limits.least_frequency), peak_speed(tray_, limits.most_frequency)};
   speeds_ = table.speed_steps(tray_.at.aspect, within);
 }

@@ -28,12 +28,11 @@ struct CorrectedSetting {
 /// What a tray gives at settings that it is not at, by the table and by what was weighed of it.
 class TrayRates {
  public:
-  /// `table` must outlive this. `setting_spread`: what a setting has of its own besides chance and interpolation
-  /// (WeighedRates).
-  TrayRates(const TableTray& tray, const HoleTable& table, const ModelError& model, double setting_spread,
-            std::vector<Weighing> weighings, const ShakerLimits& limits = {});
-  TrayRates(const TableTray& tray, HoleTable&& table, const ModelError& model, double setting_spread,
-            std::vector<Weighing> weighings, const ShakerLimits& limits = {}) = delete;
+  /// `table` must outlive this.
+  TrayRates(const TableTray& tray, const HoleTable& table, const ModelError& model,
+            std::vector<Weighing> weighings = {}, const ShakerLimits& limits = {});
+  TrayRates(const TableTray& tray, HoleTable&& table, const ModelError& model, std::vector<Weighing> weighings = {},
+            const ShakerLimits& limits = {}) = delete;
 
   const TableTray& tray() const { return tray_; }
   /// Of a setting that is far from all that were weighed, as sure as the tray's own.

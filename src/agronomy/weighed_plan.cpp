@@ -29,13 +29,13 @@ TrayRates weighed_rates(const TableTray& tray, const std::vector<WeighedTray>& w
     require_one_tray(tray, one.tray);
     weighings.push_back(weighing_of(one.tray, one.mass_rate, one.deviation, table));
   }
-  return TrayRates(tray, table, model, table.factor_spread(kept_open_from), std::move(weighings), limits);
+  return TrayRates(tray, table, model, std::move(weighings), limits);
 }
 
 WeighedPlan plan_weighed(double needed, const TableTray& tray, const std::vector<WeighedTray>& weighed,
                          const HoleTable& table, const ModelError& model, const ShakerLimits& limits) {
   const TrayRates rates = weighed_rates(tray, weighed, table, model, limits);
-  const TrayRates unweighed(tray, table, model, table.factor_spread(kept_open_from), {}, limits);
+  const TrayRates unweighed(tray, table, model, {}, limits);
   WeighedPlan plan;
   plan.needed = needed;
   plan.hole_width = tray.at.width * tray.seed.diameter;

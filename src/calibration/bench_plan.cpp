@@ -59,6 +59,7 @@ struct Flows {
   double scene_seeds_per_kg = 0;
   double to_give = 0;  // seeds of a fill that is not kept up; 0: for ever
   double window = 0;   // s
+  std::vector<CountedDoubt> doubts;
 
   /// Whether enough flows under a condition to tell.
   bool is_told(std::size_t condition) const { return 2 * gave[condition] >= tried[condition]; }
@@ -88,6 +89,7 @@ std::optional<Flows> flows_of(const CalibrationDesign& design, const MatrixXd& s
   flows.gave = flows.tried;
   std::vector<const CalibrationRun*> flowing;
   std::vector<double> rates;
+  std::vector<std::vector<Doubt>> doubts;
   for (const CalibrationRun& run : design.runs) {
     const std::optional<Run> made = kept(name_of_run(run.scene, run.random_seed));
     if (!made) return std::nullopt;
@@ -98,11 +100,15 @@ std::optional<Flows> flows_of(const CalibrationDesign& design, const MatrixXd& s
     ++flows.gave[run.condition];
     flowing.push_back(&run);
     rates.push_back(std::log(all->mass_rate));
+    doubts.push_back(evaluation.outflow.doubts);
     flows.scene_seeds_per_kg += all->seeds_per_s / all->mass_rate;
     flows.seeds_per_kg += all->seeds_per_s / all->mass_rate * depth_of(evaluation);
     flows.to_give += seeds_to_give(run.scene);
     flows.window += evaluation.outflow.window.length();
   }
+  std::vector<const std::vector<Doubt>*> of_runs;
+  for (const std::vector<Doubt>& of_run : doubts) of_runs.push_back(&of_run);
+  flows.doubts = counted_doubts(of_runs);
   const auto count = static_cast<Index>(flowing.size());
   for (double* sum : {&flows.scene_seeds_per_kg, &flows.seeds_per_kg, &flows.to_give, &flows.window})
     *sum /= static_cast<double>(std::max<Index>(count, 1));
@@ -258,6 +264,7 @@ std::optional<BenchPlan> plan_bench(const CalibrationTask& task, const Calibrati
   const GaussianProcess surrogate(flows->places, flows->log_rates);
   BenchPlan plan;
   plan.whole_rates = task.measured.scale != MeasuredScale::free;
+  plan.doubts = shared_doubts({{0, flows->doubts}});
   const MatrixXd points = sobol_points(points_averaged, keys);
   std::vector<Slopes> slopes;
   for (std::size_t c = 0; c < design.conditions.size(); ++c) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calibration/calibration_design.hpp"
+#include "outflow/doubts.hpp"
 
 namespace vibrosow {
 
@@ -30,6 +31,7 @@ struct BenchPlan {
   int repeats = 0;                  // of each condition
   std::vector<double> contraction;  // that is expected, of CalibrationTask::keys; without what calibrate holds out
   bool whole_rates = true;          // false: rates are known up to a factor
+  std::vector<SharedDoubt> doubts;  // what speaks against the runs that it was made from
   int readings() const;
   std::vector<const BenchCandidate*> chosen() const;  // in their order
 };

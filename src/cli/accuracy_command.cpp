@@ -228,12 +228,14 @@ int run_table(const AccuracyOptions& options) {
     timing.wall_time += progress.seconds();
   }
   std::vector<OutputFile> files = accuracy_files(result, timing, options.common.csv);
+  const std::vector<SharedDoubt> doubts = doubts_about(result, scene);
+  files.push_back(doubts_file(doubts, "setting"));
   add_page(files, page_template, accuracy_page_data(scene, result));
   write_then_print(
       options.common.quiet, [&] { folder.write(files); },
       [&] {
         print("{}", wrapped(scene.title));
-        print("{}", doubts_paragraph(doubts_about(result, scene), "setting", all_doubts));
+        print("{}", doubts_paragraph(doubts, "setting", all_doubts));
         print("\n{}\n{}", accuracy_table(result), wrapped(accuracy_sentence(result)));
       });
   return ended(options, folder, runs, interrupt);

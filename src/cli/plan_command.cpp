@@ -297,7 +297,7 @@ int run_plan(const PlanOptions& options) {
   PlanCard card;
   if (!options.html.empty() && !source.plan.layouts.empty()) {
     const PlannedLayout& best = source.plan.layouts.front();
-    const TrayRates rates(table_tray(source.plan.task, best), table, model, 0, {});
+    const TrayRates rates(table_tray(source.plan.task, best), table, model);
     card = {rates.tray(), best.feed.rows, settings_card(rates, source.plan.task, best.feed.rows, best.more_by_faster)};
     page.card = &card;
   }

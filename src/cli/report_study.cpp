@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "answer/answer.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
@@ -100,7 +101,8 @@ int report_study(const PlannedStudy& planned, const StudyRuns& runs, const Outpu
   const StudyResult result = answer_of_kept(
       planned, runs.kept(), timing.jobs,
       [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs_csv.add(scene, of_scene); });
-  std::vector<OutputFile> files = sweep_files(result, runs_csv, timing, options.csv);
+  const Answer answer = answer_of(result, planned.plan.random_seed);
+  std::vector<OutputFile> files = sweep_files(answer, result, runs_csv, timing, options.csv);
   const bool whole = is_whole(result);
   const bool with_replays = options.replays > 0 && whole;
   if (!page_template.empty() && !with_replays)

@@ -12,6 +12,11 @@ std::string reason_of(const vibrosow::Evaluation& own) {
   return own.reason.empty() ? own.end_reason : own.reason;
 }
 
+Doubt converted(const vibrosow::Doubt& own) {
+  const DoubtWords& words = words_of(own.kind);
+  return {std::string(words.name), words.severity == Severity::serious, own.text, std::string(words.advice)};
+}
+
 int hole_of(const std::string& own) {
   return own == "all" ? all_holes : std::stoi(own);
 }
@@ -33,7 +38,7 @@ Evaluation converted(const vibrosow::Evaluation& own) {
                         .holes = {},
                         .unevenness_cv = unevenness ? unevenness->cv : std::nullopt,
                         .depth_factor = own.outflow.depth_factor};
-  for (const Doubt& doubt : own.outflow.doubts) evaluation.doubts.push_back(doubt.text);
+  for (const vibrosow::Doubt& doubt : own.outflow.doubts) evaluation.doubts.push_back(converted(doubt));
   for (const vibrosow::HoleOutflow& row : own.outflow.holes)
     evaluation.holes.push_back(
         {hole_of(row.hole), row.lot, row.grains, row.seeds_per_s, row.mass_rate, row.longest_pause});

@@ -497,6 +497,7 @@ std::vector<FileText> accuracy_file_texts() {
       file_text(page_times_name, "what the command took on this machine", timing_keys()),
       page_data_text(),
       accuracy_page_text(),
+      doubts_file_text("setting"),
       file_text("promise.json", "with --within or --budget: what was chosen and what it may err by", promise_keys()),
       {"numerics.toml", "with --within or --budget: the keys of a seeder that set it so", {}}};
 }

@@ -118,4 +118,15 @@ Json doubts_json(const std::vector<SharedDoubt>& doubts, const std::string& noun
   return all;
 }
 
+FileText doubts_file_text(std::string_view noun) {
+  return {
+      "doubts.json",
+      fmt::format("what speaks against the answer's runs: a list `doubts` as in decision.json, of {}s by number", noun),
+      {}};
+}
+
+OutputFile doubts_file(const std::vector<SharedDoubt>& doubts, const std::string& noun) {
+  return {"doubts.json", Json{{"doubts", doubts_json(doubts, noun)}}.dump(2) + '\n'};
+}
+
 }  // namespace vibrosow

@@ -9,6 +9,8 @@
 
 #include "answer/answer.hpp"
 #include "outflow/doubts.hpp"
+#include "report/columns.hpp"
+#include "report/output_folder.hpp"
 
 namespace vibrosow {
 
@@ -38,5 +40,9 @@ nlohmann::ordered_json doubts_json(const std::vector<SharedDoubt>& doubts, const
 inline constexpr const char* doubts_description =
     "what speaks against the runs of the layouts that the answer names: each with its kind, whether it is serious, the "
     "layouts, in how many of their runs, what happened first and what to do";
+
+/// doubts.json, of answers that have no other JSON file.
+FileText doubts_file_text(std::string_view noun = "layout");
+OutputFile doubts_file(const std::vector<SharedDoubt>& doubts, const std::string& noun = "layout");
 
 }  // namespace vibrosow

@@ -9,6 +9,7 @@
 
 #include "input/key_units.hpp"
 #include "picture/escaped_text.hpp"
+#include "report/answer_doubts.hpp"
 #include "report/printed_page.hpp"
 #include "report/terminal_text.hpp"
 
@@ -147,6 +148,7 @@ std::string reading_table(const BenchSource& source) {
 
 std::string page(const BenchSource& source) {
   std::string text = instructions(source) + reading_table(source);
+  for (const Remark& remark : doubt_remarks(source.plan.doubts, "", all_doubts)) text += paragraph(sentence_of(remark));
   for (const std::string& choice : source.choices) text += paragraph(choice);
   text += paragraph(expectation(source)) + fmt::format("<p>Then: <code>{}</code></p>\n", escaped_text(source.command));
   return printed_page(fmt::format("Bench sheet: {}", source.task.seeder.stem().string()), text);
@@ -158,6 +160,7 @@ std::string bench_table(const BenchSource& source) {
   std::vector<std::string> names;
   for (const std::string& key : source.task.measured.table.condition_keys) names.push_back(key);
   std::string text =
+      doubts_paragraph(source.plan.doubts, "", all_doubts) +
       wrapped(fmt::format("{} readings of {:g} s, each condition {} times: {:.0f} minutes", source.plan.readings(),
                           source.plan.catch_time, source.plan.repeats, minutes(source)));
   text += wrapped(fmt::format("to set ({}):", fmt::join(names, ", ")));
@@ -175,6 +178,7 @@ std::vector<FileText> bench_file_texts() {
       {"bench-sheet.html", "a page to print: what to set, how long to run, what to weigh", {}},
       file_text("bench.csv", "one row per reading to be taken; filled in, `vibrosow calibrate` reads it",
                 reading_columns(any)),
+      doubts_file_text(),
       file_text("bench_candidates.csv", "one row per combination of settings that was tried", candidate_columns(any))};
 }
 
@@ -182,7 +186,8 @@ std::vector<OutputFile> bench_files(const BenchSource& source, CsvFormat format)
   const std::vector<std::string>& keys = source.task.measured.table.condition_keys;
   return {{"bench-sheet.html", page(source)},
           {"bench.csv", csv_of(reading_columns(keys), readings(source), format)},
-          {"bench_candidates.csv", csv_of(candidate_columns(keys), source.plan.candidates, format)}};
+          {"bench_candidates.csv", csv_of(candidate_columns(keys), source.plan.candidates, format)},
+          doubts_file(source.plan.doubts)};
 }
 
 }  // namespace vibrosow

@@ -238,6 +238,7 @@ std::vector<FileText> calibration_file_texts() {
       file_text("posterior.csv", "points of equal weight from what is known of the fitted keys, one a row",
                 posterior_columns(any, true)),
       file_text("calibration_runs.csv", "one row per run that was made", run_columns(any)),
+      doubts_file_text(),
       {"contact.toml",
        "a contact model with the means of the fitted values and where each is from, for "
        "`[contact] model = \"contact.toml\"`; none where the table is not met within its noise, a value lies at the "
@@ -252,7 +253,8 @@ std::vector<OutputFile> calibration_files(const CalibrationAnswer& answer, const
       {"calibration.csv", csv_of(value_columns(answer.is_fitted), answer.numbers, format)},
       {"prediction.csv", csv_of(prediction_columns(), prediction_rows(answer), format)},
       {"posterior.csv", csv_of(posterior_columns(keys, with_factor), sample(answer), format)},
-      {"calibration_runs.csv", csv_of(run_columns(keys), run_rows(answer), format)}};
+      {"calibration_runs.csv", csv_of(run_columns(keys), run_rows(answer), format)},
+      doubts_file(answer.doubts)};
   if (answer.gives_a_contact)
     files.push_back(
         {"contact.toml",

@@ -23,7 +23,7 @@ constexpr std::array parts = {
     ErrorPart{tolerance, "the same of a hole 0.1 mm wider or narrower and an amplitude off by 2 %",
               [](const PredictionError& error) { return half_width_of_normal(error.tolerance); }},
     ErrorPart{"model", "the same of the model: from rates that others measured of other materials",
-              [](const PredictionError& error) { return half_width_of_model(error.model); }},
+              [](const PredictionError& error) { return half_width_of_model(error); }},
 };
 
 std::optional<double> known_part(const ErrorPart& part, const ExpectedRate& expected) {
@@ -82,12 +82,14 @@ std::string parts_text(const PredictionError& error) {
   return parts_text(std::vector{&of});
 }
 
-std::string model_text(const ModelError& model) {
+std::string model_text(const PredictionError& error) {
+  const ModelError& model = error.model;
   const double over = 1 / model.mean_factor - 1;
   return fmt::format(
       "The model's part is Student's t, from {} materials whose flow through still holes and slots others measured or "
-      "gave a formula for: simulated rates were {} % too {} on average. No measurement of a shaken tray was found.",
-      model.materials, two_digit_percent(std::abs(over)), over > 0 ? "high" : "low");
+      "gave a formula for: simulated rates were {} % too {} on average.{} No measurement of a shaken tray was found.",
+      model.materials, two_digit_percent(std::abs(over)), over > 0 ? "high" : "low",
+      error.setting > 0 ? " What grains give against balls differs from setting to setting, which is in it too." : "");
 }
 
 std::string expected_sentence(const ExpectedRate& expected) {

@@ -56,7 +56,7 @@ std::string range_text(double mass_rate, const FactorRange& range);
 std::string parts_text(const PredictionError& error);
 
 /// How the model did where others measured. Its bias is told, not taken out.
-std::string model_text(const ModelError& model);
+std::string model_text(const PredictionError& error);
 
 /// "6.2 g/s, expect 3.1 to 12 g/s until you weigh (95 %); of it chance 2 %, ..". A tolerance that is not known is
 /// called so.

@@ -305,7 +305,7 @@ std::string certainty_text(const SowingPlan& plan) {
       "How sure: a hole of the best layout is to give {} g/s. Expect {} until you weigh (95 %); of it {}. {} The "
       "simulated holes like it were watched for {} s in all, so clogs that are rarer were not seen. ",
       to_digits(rate / gram, 2), range_text(rate, expected_range(best.error)), parts_text(best.error),
-      model_text(best.error.model), to_digits(best.estimate.watched * unit_of_time(plan), 2));
+      model_text(best.error), to_digits(best.estimate.watched * unit_of_time(plan), 2));
 }
 
 /// What the table leaves out of a mixture; empty of one crop.

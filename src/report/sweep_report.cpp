@@ -317,6 +317,7 @@ std::vector<FileText> sweep_file_texts() {
                     "of all holes",
                     sweep_holes_columns(true)),
           file_text("sweep_runs.csv", "one row per layout and random seed", sweep_runs_columns()),
+          doubts_file_text(),
           file_text("timing.json", "what the sweep took on this machine", timing_keys()),
           file_text("sweep_records.csv",
                     "of a study whose seeder has a record: one row per layout, snapshot and lot, and one of all lots",
@@ -328,11 +329,12 @@ std::vector<FileText> sweep_file_texts() {
           sweep_page_text()};
 }
 
-std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepRunsCsv& runs, const SweepTiming& timing,
-                                    CsvFormat format) {
+std::vector<OutputFile> sweep_files(const Answer& answer, const StudyResult& result, const SweepRunsCsv& runs,
+                                    const SweepTiming& timing, CsvFormat format) {
   std::vector<OutputFile> files = {{"sweep.csv", sweep_csv(result, format)},
                                    {"sweep_holes.csv", sweep_holes_csv(result, format)},
                                    {"sweep_runs.csv", runs.text()},
+                                   doubts_file(doubts_about(answer)),
                                    {"timing.json", sweep_timing_json(timing)}};
   const auto records = [](const LayoutResult& one) { return !one.bed.empty(); };
   if (std::ranges::any_of(result.layouts, records))

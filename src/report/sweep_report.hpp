@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "answer/answer.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
 #include "study/sweep.hpp"
@@ -55,9 +56,10 @@ std::string sweep_timing_json(const SweepTiming& timing);
 /// What the files of a sweep hold; the keys that a study varies stand as one column KEY.
 std::vector<FileText> sweep_file_texts();
 
-/// Its files: sweep.csv, sweep_holes.csv, sweep_runs.csv, timing.json, with a record sweep_records.csv, with measured
-/// outflow comparison.csv, and with a drill sweep_rows.csv and, where it is varied what they follow, trade.csv.
-std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepRunsCsv& runs, const SweepTiming& timing,
-                                    CsvFormat format = {});
+/// Its files: sweep.csv, sweep_holes.csv, sweep_runs.csv, doubts.json, timing.json, with a record sweep_records.csv,
+/// with measured outflow comparison.csv, and with a drill sweep_rows.csv and, where it is varied what they follow,
+/// trade.csv.
+std::vector<OutputFile> sweep_files(const Answer& answer, const StudyResult& result, const SweepRunsCsv& runs,
+                                    const SweepTiming& timing, CsvFormat format = {});
 
 }  // namespace vibrosow

@@ -33,8 +33,18 @@ TEST(PredictionError, OfTheModelIsStudents) {
     const ModelError model{0.22, materials, 1};
     const double t = students_t_quantile(materials, 0.975);
     EXPECT_NEAR(expected_range({.model = model}).high, std::exp(t * 0.22), 0.004) << materials;
-    EXPECT_NEAR(half_width_of_model(model), std::sinh(t * 0.22), 1e-12);
+    EXPECT_NEAR(half_width_of_model({.model = model}), std::sinh(t * 0.22), 1e-12);
   }
+}
+
+/// What the model errs by at one setting alone is a normal part of it, and widens the range before anything is weighed.
+TEST(PredictionError, OfTheModelHasASettingsOwnPart) {
+  const ModelError model{0.22, 5, 1};
+  const PredictionError error{.model = model, .setting = 0.12};
+  EXPECT_NEAR(half_width_of_model({.setting = 0.12}), half_width_of_normal(0.12), 1e-12);
+  const FactorRange range = expected_range(error);
+  EXPECT_NEAR(half_width_of_model(error), (range.high - range.low) / 2, 1e-12);
+  EXPECT_GT(half_width_of_model(error), 1.05 * half_width_of_model({.model = model}));
 }
 
 TEST(PredictionError, OfTheModelComesFromMeasuredRates) {
@@ -62,8 +72,8 @@ class Users : public testing::Test {
   double normal(double deviation) { return deviation * normal_quantile(uniform()); }
   double student() { return error.model.scale * students_t_quantile(error.model.materials, uniform()); }
 
-  const PredictionError error{.numerics = 0.03, .tolerance = 0.04, .model = {0.22, 5, 1}};
-  const double spread = 0.08, own = 0.05, weighing = 0.02;
+  const PredictionError error{.numerics = 0.03, .tolerance = 0.04, .model = {0.22, 5, 1}, .setting = 0.08};
+  const double own = 0.05, weighing = 0.02;
   const SettingPlace here{0.2, 1, 4}, near_here{0.6, 1, 4};
   const double near_share = common_share(here, near_here);
 
@@ -75,14 +85,14 @@ TEST_F(Users, AreHeldBeforeAndAfterWeighingAtNewSettingsToo) {
   constexpr int users = 2000;
   int before = 0, after = 0, there = 0, near = 0, anew = 0;
   double narrowed = 0;
-  const WeighedRates unweighed(error, spread, {});
+  const WeighedRates unweighed(error, {});
   const FactorRange wide = unweighed.at(own).range;
   for (int k = 0; k < users; ++k) {
     const double of_the_seed = student() + normal(error.numerics), common = of_the_seed + normal(error.tolerance);
-    const double part = std::hypot(spread, own);
+    const double part = std::hypot(error.setting, own);
     const double setting = normal(part), other = normal(part);
     const double beside = near_share * setting + std::sqrt(1 - near_share * near_share) * normal(part);
-    const WeighedRates weighed(error, spread, {{here, common + setting + normal(weighing), weighing, own}});
+    const WeighedRates weighed(error, {{here, common + setting + normal(weighing), weighing, own}});
     const auto holds = [](const FactorRange& range, double truth) {
       return std::exp(truth) >= range.low && std::exp(truth) <= range.high;
     };
@@ -104,7 +114,7 @@ TEST_F(Users, AreHeldBeforeAndAfterWeighingAtNewSettingsToo) {
 
 TEST_F(Users, WhoWeighAgainAtOneSettingLearnNothingMoreOfOthers) {
   const Weighing one{here, 0.3, 0.001, 0};
-  const WeighedRates once(error, spread, {one}), often(error, spread, std::vector<Weighing>(50, one));
+  const WeighedRates once(error, {one}), often(error, std::vector<Weighing>(50, one));
   const FactorRange a = once.at(0).range, b = often.at(0).range;
   EXPECT_NEAR(std::log(b.high / b.low) / std::log(a.high / a.low), 1, 0.01);
   const FactorRange there = often.at(0, here).range;
@@ -113,7 +123,7 @@ TEST_F(Users, WhoWeighAgainAtOneSettingLearnNothingMoreOfOthers) {
 
 /// By a weighing without an error, at the same place, nothing but the two tolerances is left open.
 TEST_F(Users, WhoDrillAnewKeepTheToleranceOfBothHoles) {
-  const WeighedRates weighed(error, spread, {{here, 0.2, 1e-6, own}});
+  const WeighedRates weighed(error, {{here, 0.2, 1e-6, own}});
   const WeighedRates::Answer anew = weighed.at(own, here, error.tolerance);
   EXPECT_NEAR(std::log(anew.range.high / anew.range.low) / 2, normal_95 * std::sqrt(2.0) * error.tolerance,
               0.05 * error.tolerance);
@@ -123,12 +133,12 @@ TEST_F(Users, WhoDrillAnewKeepTheToleranceOfBothHoles) {
 TEST_F(Users, AreToldOfARowThatContradictsTheOthers) {
   std::vector<Weighing> rows;
   for (double setting = 1; setting <= 4; ++setting) rows.push_back({{setting, 0, 0}, 0.1, weighing, own});
-  for (const double share : WeighedRates(error, spread, rows).surprise()) EXPECT_GT(share, 0.5);
+  for (const double share : WeighedRates(error, rows).surprise()) EXPECT_GT(share, 0.5);
   rows[2].log_ratio = 0.1 + 0.6;
-  const std::vector<double> shares = WeighedRates(error, spread, rows).surprise();
+  const std::vector<double> shares = WeighedRates(error, rows).surprise();
   EXPECT_LT(shares[2], 0.001);
   EXPECT_GT(shares[0], 0.01);
-  EXPECT_LT(WeighedRates(error, spread, {{here, std::log(20), weighing, own}}).surprise()[0], 0.01);
+  EXPECT_LT(WeighedRates(error, {{here, std::log(20), weighing, own}}).surprise()[0], 0.01);
 }
 
 }  // namespace

@@ -20,9 +20,7 @@ class Card : public testing::Test {
     task.sowing_rate = 100 * task.seed.mass / (task.pace.row_spacing * task.pace.speed);
     plan = plan_sowing(task, table, model);
   }
-  TrayRates planned(const PlannedLayout& layout) const {
-    return TrayRates(table_tray(task, layout), table, model, 0, {});
-  }
+  TrayRates planned(const PlannedLayout& layout) const { return TrayRates(table_tray(task, layout), table, model); }
   /// kg/s by the law itself.
   double given(const TableTray& tray, const CorrectedSetting& set) const {
     HoleConditions at = tray.at;

@@ -51,6 +51,15 @@ TEST_F(Weighed, SettingGivesWhatIsNeeded) {
   EXPECT_LT(std::log(plan.after.high / plan.after.low), 0.7 * std::log(plan.before.high / plan.before.low));
 }
 
+/// What is said to have been known before is what a plan says of the same tray.
+TEST_F(Weighed, IsNarrowedFromWhatThePlanSays) {
+  const WeighedTray weighed = row(4.5, 1.2);
+  const WeighedPlan plan = plan_weighed(weighed.mass_rate, weighed.tray, {weighed}, table, model);
+  const FactorRange planned = expected_range(table_error(table, weighed.tray.at, weighed.tray.seed.diameter, model));
+  EXPECT_NEAR(plan.before.low, planned.low, 1e-9);
+  EXPECT_NEAR(plan.before.high, planned.high, 1e-9);
+}
+
 TEST_F(Weighed, WhatWasWeighedIsGivenThereAndKnownBest) {
   const WeighedTray weighed = row(4.5, 1.2);
   const WeighedPlan plan = plan_weighed(weighed.mass_rate, weighed.tray, {weighed}, table, model);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -195,6 +196,23 @@ DecisionReport decided(const Study& study, const Simulator& simulator, std::opti
   StudyDecision decision(study, options);
   lead_to_the_end(decision, simulator);
   return {decision.result(), {}};
+}
+
+/// The file has the kinds with their layouts, as decision.json has.
+TEST_P(Doubts, OfASweepStandInAFile) {
+  const StudyResult result = sweep(study(), simulator(GetParam().kind), {});
+  for (const OutputFile& file : sweep_files(answer_of(result, 1), result, SweepRunsCsv(result.study), {})) {
+    if (file.name != "doubts.json") continue;
+    const auto doubts = nlohmann::json::parse(file.content).at("doubts");
+    const auto about_it =
+        std::find_if(doubts.begin(), doubts.end(), [](const auto& doubt) { return doubt.at("kind") == name(); });
+    ASSERT_EQ(about_it != doubts.end(), GetParam().sweep == as_doubt);
+    if (about_it != doubts.end()) {
+      EXPECT_EQ(about_it->at("layouts"), (nlohmann::json{1, 2}));
+    }
+    return;
+  }
+  ADD_FAILURE() << "doubts.json is missing";
 }
 
 TEST_P(Doubts, ADecisionTells) {

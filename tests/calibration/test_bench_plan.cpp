@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
@@ -67,6 +68,21 @@ TEST_F(BenchPlanOf, LeavesRunsOutsideTheModelOut) {
   };
   const double sound = plan({}).candidates[0].mass_rate;
   EXPECT_NEAR(plan({}, MeasuredScale::none, quarter_outside).candidates[0].mass_rate, sound, 0.1 * sound);
+}
+
+TEST_F(BenchPlanOf, TellsWhatSpeaksAgainstItsRuns) {
+  const auto warned = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = made_up_run(model, options);
+    run.warnings = {{DoubtKind::guard_warned, "overlaps were deep"}};
+    return run;
+  };
+  const auto about_it = [](const SharedDoubt& doubt) { return doubt.kind == DoubtKind::guard_warned; };
+  EXPECT_TRUE(std::ranges::none_of(plan({}).doubts, about_it));
+  const BenchPlan of_warned = plan({}, MeasuredScale::none, warned);
+  const auto found = std::ranges::find_if(of_warned.doubts, about_it);
+  ASSERT_NE(found, of_warned.doubts.end());
+  EXPECT_GT(found->runs, 0);
+  EXPECT_EQ(found->runs, found->of);
 }
 
 /// Seeds that fall by exp(-slope part) along friction's range, under all widths alike but for their slopes; so many

@@ -230,6 +230,12 @@ def check_citation():
         expect(f'"{title}"' in theory, f"CITATION.cff: theory.md knows no \"{title}\"")
 
 
+def check_changelog():
+    version = re.search(r"results_version = (\d+);", (ROOT / "src/result/results_version.hpp").read_text(encoding="utf-8"))[1]
+    expect(f"Results are of version {version}:" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"),
+           f"CHANGELOG.md does not say that results are of version {version}")
+
+
 def main():
     program = str(Path(sys.argv[1]).resolve())
     for path in DOCUMENTS:
@@ -245,6 +251,7 @@ def main():
     check_accuracy_levels()
     check_tables()
     check_citation()
+    check_changelog()
     check_anchors()
     check_pictures()
     front = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -108,7 +108,7 @@ TEST(Decide, InSpaceTellsWhatTheRatesAreExpectedToBeAndDecidesByChanceAlone) {
     const auto& expected = report.result.scenes[scene].expected;
     ASSERT_TRUE(expected);
     EXPECT_DOUBLE_EQ(expected->mass_rate, report.result.scenes[scene].rate->mean);
-    EXPECT_GT(half_width_of_model(expected->error.model), 0.1);
+    EXPECT_GT(half_width_of_model(expected->error), 0.1);
   }
   EXPECT_THAT(decision_csv(report), HasSubstr(",expected_low_g_per_s,expected_high_g_per_s,chance_percent,"));
 }

@@ -270,7 +270,7 @@ TEST(PlanPageText, HasACardAndWhatToWeigh) {
   source.lots.front().crop = "<balls>";
   const PlannedLayout& best = source.plan.layouts.front();
   const HoleTable table(made_up_records());
-  const TrayRates rates(table_tray(source.plan.task, best), table, {0.2, 5, 1}, 0, {});
+  const TrayRates rates(table_tray(source.plan.task, best), table, {0.2, 5, 1});
   const PlanCard card{rates.tray(), best.feed.rows,
                       settings_card(rates, source.plan.task, best.feed.rows, best.more_by_faster)};
   const std::string page = plan_page({.source = source, .card = &card, .command = "vibrosow plan --crop <balls>"});

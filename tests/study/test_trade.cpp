@@ -76,7 +76,8 @@ TEST(Trade, RowsAndTradeAreFilesOfAStudyWithADrillAlone) {
   const StudyResult bare = swept(read_study(files.study("replicates = 2\n")));
   const auto names = [](const StudyResult& result) {
     std::vector<std::string> found;
-    for (const OutputFile& file : sweep_files(result, SweepRunsCsv(result.study), {})) found.push_back(file.name);
+    for (const OutputFile& file : sweep_files(answer_of(result, 1), result, SweepRunsCsv(result.study), {}))
+      found.push_back(file.name);
     return found;
   };
   EXPECT_THAT(names(bare), Not(testing::Contains("sweep_rows.csv")));
