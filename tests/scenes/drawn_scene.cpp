@@ -585,10 +585,12 @@ class SceneWriter {
 
   void write_rain(const Shape& vessel) {
     const std::string& name = vessel.name;
-    if (!draw_.one_in(name + ".rain", 4)) return;
+    if (!draw_.one_in(name + ".rain", vessel.periodic ? 2 : 4)) return;
     filled_ = true;
-    set(name + ".rain.rate", in_unit(draw_.number(name + ".rain.rate", 300, 600), "1/s"));
-    if (draw_.one_in(name + ".rain.part", 2)) {
+    // So much, and everywhere, that it meets itself across a seam.
+    const double most = vessel.periodic ? 1200 : 600;
+    set(name + ".rain.rate", in_unit(draw_.number(name + ".rain.rate", 300, most), "1/s"));
+    if (!vessel.periodic && draw_.one_in(name + ".rain.part", 2)) {
       set(name + ".rain.from", mm(0.2 * vessel.length));
       set(name + ".rain.to", mm(0.7 * vessel.length));
     }
