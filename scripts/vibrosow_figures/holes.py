@@ -17,8 +17,9 @@ GRAVITY = 9.81  # m/s2
 POURED = 0.6  # packing fraction by which the number of seeds is called a depth
 STANDS_STILL = 10  # sqrt(d / g); in that time a seed falls 50 diameters
 WINDOWS = 10  # equal parts of the measuring window
+CONTACT = ("friction", "wall_friction", "rolling_friction", "restitution")
 
-HEADER = ("aspect,width_over_d,peak_speed,depth_over_d,amplitude_over_d,runs,seeds,outflow,outflow_ci95,dispersion,longest_pause,"
+HEADER = ("aspect,width_over_d,peak_speed,depth_over_d,amplitude_over_d,friction,wall_friction,rolling_friction,restitution,runs,seeds,outflow,outflow_ci95,dispersion,longest_pause,"
           "stood_still,watched").split(",")
 
 
@@ -44,14 +45,15 @@ def holes_of(run, scene, unit):
 
 
 def conditions_of(scene, diameter):
-    """(width over d, peak speed over sqrt(g d), depth over d, amplitude over d)"""
-    tray = scene["tray"]
+    """(width over d, peak speed over sqrt(g d), depth over d, amplitude over d, and the contact)"""
+    tray, contact = scene["tray"], scene["contact"]
     motion, floor = tray["motion"], tray["length_m"] * tray["depth_m"]
     (width,) = {hole["width_m"] for hole in tray["holes"]}
     speed = 2 * math.pi * motion["frequency_hz"] * motion["amplitude_m"]
     depth = tray["fill"]["count"] * math.pi / 6 * diameter**3 / (POURED * floor)
     return tuple(float(f"{value:.3g}") for value in
-                 (width / diameter, speed / math.sqrt(GRAVITY * diameter), depth / diameter, motion["amplitude_m"] / diameter))
+                 (width / diameter, speed / math.sqrt(GRAVITY * diameter), depth / diameter, motion["amplitude_m"] / diameter,
+                  contact["seed"]["friction"], contact["wall"]["friction"], contact["seed"].get("rolling_friction", 0), contact["seed"]["restitution"]))
 
 
 def exported(program, folder, name, diameter):
@@ -103,10 +105,10 @@ def line_of(aspect, conditions, runs, relative_half_width):
 
 
 def hole_table(options):
-    """The table of one hole, from sweeps of seeders/one-hole.toml that vary its width, the frequency and the bed's depth.
+    """The table of one hole, from sweeps of seeders/one-hole.toml that vary its width, the frequency, the bed's depth and the contact.
 
     SHAPE=FOLDER: how many times a seed is as long as wide, and a folder of `vibrosow sweep` with every run of its plan. Prints CSV, a
-    row per shape, hole width, peak speed and depth of the bed; d is the diameter of the ball of a seed's volume, and speeds are in
+    row per shape, hole width, peak speed, depth of the bed and contact of the seeds; d is the diameter of the ball of a seed's volume, and speeds are in
     sqrt(g d), times in sqrt(d / g): outflow is seeds per hole in such a time, with the half width of its 95 % interval (from the
     scatter between runs, pooled over all runs of a sweep); dispersion is the variance over the mean of a hole's counts in tenths of the
     window (1 for seeds that come at random); longest_pause the longest of any hole; stood_still the share of holes that once let nothing
@@ -121,7 +123,32 @@ def hole_table(options):
             out.writerow(line_of(float(aspect), conditions, runs, halves[conditions]))
 
 
+def contact_slopes(options):
+    """What a contact does to the outflow of one hole, by least squares over the rows of a table with other contacts, as `vibrosow plan` fits them:
+    ln(outflow) = what belongs to the setting + slopes. Prints CSV, a row per shape and part of the contact: the slope, its half width (95 %,
+    Student's t), and by how many percent the outflow changes from `from` to `to`, the least and the most that were tried."""
+    out = csv.writer(sys.stdout, lineterminator="\n")
+    out.writerow("aspect,part,slope,slope_ci95,from,to,change_percent,change_ci95_percent".split(","))
+    table = rows(options.table)
+    for aspect in sorted({row["aspect"] for row in table}, key=float):
+        of_shape = [row for row in table if row["aspect"] == aspect]
+        settings = sorted({(row["width_over_d"], row["peak_speed"]) for row in of_shape})
+        terms = np.array([[(math.log if part == "friction" else float)(float(row[part])) for part in CONTACT]
+                          + [(row["width_over_d"], row["peak_speed"]) == setting for setting in settings] for row in of_shape])
+        outflows = np.log([float(row["outflow"]) for row in of_shape])
+        found = np.linalg.lstsq(terms, outflows, rcond=None)[0]
+        freedom = len(of_shape) - terms.shape[1]
+        covariance = np.sum((outflows - terms @ found) ** 2) / freedom * np.linalg.inv(terms.T @ terms)
+        for k, part in enumerate(CONTACT):
+            half, values = student.ppf(0.975, freedom) * math.sqrt(covariance[k, k]), [float(row[part]) for row in of_shape]
+            change = np.ptp(terms[:, k])
+            out.writerow([aspect, part, f"{found[k]:.3g}", f"{half:.2g}", f"{min(values):g}", f"{max(values):g}",
+                          f"{100 * math.expm1(found[k] * change):.2g}", f"{100 * half * change * math.exp(found[k] * change):.2g}"])
+
+
 def add_commands(commands):
+    parser = command(commands, "contact-slopes", contact_slopes)
+    parser.add_argument("table", help="models/outflow/one-hole-contacts.csv")
     parser = command(commands, "hole-table", hole_table)
     parser.add_argument("--diameter-mm", type=float, required=True, help="d, of the ball of a seed's volume")
     parser.add_argument("program", metavar="VIBROSOW")

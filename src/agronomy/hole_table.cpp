@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "agronomy/place_giving.hpp"
 #include "agronomy/prediction_error.hpp"
@@ -71,6 +72,7 @@ void HoleTable::check() const {
   for (const HoleRecord& record : records_) {
     if (!(record.outflow > 0)) throw std::invalid_argument("an outflow is not positive");
     if (record.amplitude != amplitude()) throw std::invalid_argument("the amplitudes, over d, differ");
+    if (record.contact != contact()) throw std::invalid_argument("the contacts differ");
   }
   for (std::size_t k = 1; k < records_.size(); ++k)
     if (place_of(records_[k]) == place_of(records_[k - 1]))
@@ -107,6 +109,15 @@ double HoleTable::factor(const HoleRecord& record) const {
   const std::vector<Share> places = places_around(balls, record.at);
   if (places.empty()) throw std::invalid_argument("a longer seed's conditions lie outside those of balls");
   return std::log(record.outflow) - beverloo * std::log(value(balls, places));
+}
+
+HoleTable HoleTable::times(const ContactFactor& factor) const {
+  std::vector<HoleRecord> records = records_;
+  for (HoleRecord& record : records)
+    for (double* outflow : {&record.outflow, &record.half_width_95}) *outflow *= std::exp(factor.log);
+  HoleTable table(std::move(records));
+  table.multiplied_by_ = {multiplied_by_.log + factor.log, std::hypot(multiplied_by_.deviation, factor.deviation)};
+  return table;
 }
 
 Span HoleTable::aspects() const {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include "agronomy/seed_contact.hpp"
 
 namespace vibrosow {
 
@@ -21,6 +24,7 @@ struct HoleConditions {
 struct HoleRecord {
   HoleConditions at;
   double amplitude = 0;  // of the tray, over d
+  SeedContact contact;
   int runs = 0;
   double seeds = 0;                  // counted, of all runs and their holes
   double outflow = 0;                // seeds of a hole in sqrt(d / g)
@@ -38,6 +42,8 @@ inline constexpr double long_pause = 10;
 struct Span {
   double least = 0, most = 0;
   bool holds(double value) const { return value >= least && value <= most; }
+  double nearest(double value) const { return std::clamp(value, least, most); }
+  Span with(double value) const { return {std::min(least, value), std::max(most, value)}; }
 };
 
 /// An outflow between the table's places; what was seen of the holes is of the worst of the places around.
@@ -57,7 +63,7 @@ struct HoleEstimate {
 class HoleTable {
  public:
   /// Throws std::invalid_argument without balls, where a shape's places are no whole grid of at least two widths,
-  /// speeds and depths within that of balls, an outflow is not positive, or amplitudes differ.
+  /// speeds and depths within that of balls, an outflow is not positive, or amplitudes or contacts differ.
   explicit HoleTable(std::vector<HoleRecord> records);
 
   const std::vector<HoleRecord>& records() const { return records_; }
@@ -72,6 +78,13 @@ class HoleTable {
   std::vector<double> speed_steps(double aspect, const Span& limits) const;
   /// Of the tray, over d: the same in all records.
   double amplitude() const { return records_.front().amplitude; }
+  /// Of its seeds: the same in all records.
+  const SeedContact& contact() const { return records_.front().contact; }
+
+  /// The table of seeds whose every outflow is so many times as much.
+  HoleTable times(const ContactFactor& factor) const;
+  /// What it was multiplied by in all.
+  const ContactFactor& multiplied_by() const { return multiplied_by_; }
 
   /// None outside the table.
   std::optional<HoleEstimate> at(const HoleConditions& conditions) const;
@@ -132,6 +145,7 @@ class HoleTable {
   std::vector<HoleRecord> records_;
   std::vector<double> shapes_;  // aspects, ascending; the first is that of balls
   std::vector<Grid> grids_;     // of each
+  ContactFactor multiplied_by_;
 };
 
 }  // namespace vibrosow

@@ -35,12 +35,6 @@ std::array<double, 3> measures(const std::vector<ClumpDisc>& discs) {
   return result;
 }
 
-/// Mean volume of a lot's seeds, m3.
-double volume_of(const SeedLot& lot) {
-  return (lot.shape == Shape::clump ? clump_volume(lot) : std::numbers::pi / 6 * std::pow(lot.diameter, 3)) *
-         size_moment(lot, 3);
-}
-
 /// Of the ball of a volume, m.
 double diameter_of(double volume) {
   return std::cbrt(6 / std::numbers::pi * volume);
@@ -201,18 +195,23 @@ SeedLot of_mass(SeedLot lot, double mass) {
   return lot;
 }
 
+double mean_volume(const SeedLot& lot) {
+  return (lot.shape == Shape::clump ? clump_volume(lot) : std::numbers::pi / 6 * std::pow(lot.diameter, 3)) *
+         size_moment(lot, 3);
+}
+
 PlannedSeed planned_seed(const std::vector<SeedLot>& lots) {
   PlannedSeed seed;
   double volume = 0;  // m3, mean
   for (const SeedLot& lot : lots) {
-    const double of_lot = volume_of(lot);
+    const double of_lot = mean_volume(lot);
     volume += lot.number_fraction * of_lot;
     seed.mass += lot.number_fraction * mean_mass(lot);
     seed.largest = std::max(seed.largest, diameter_of(of_lot));
   }
   seed.diameter = diameter_of(volume);
   seed.aspect = 0;
-  for (const SeedLot& lot : lots) seed.aspect += lot.number_fraction * volume_of(lot) / volume * aspect_of(lot);
+  for (const SeedLot& lot : lots) seed.aspect += lot.number_fraction * mean_volume(lot) / volume * aspect_of(lot);
   return seed;
 }
 
@@ -245,7 +244,8 @@ PredictionError table_error(const HoleTable& table, const HoleConditions& condit
   const double interpolation = table.interpolation_error(conditions.aspect, conditions.width, conditions.peak_speed);
   return {
       .chance = table.at(conditions).value().chance / normal_95,
-      .numerics = std::hypot(interpolation, softness_error(conditions.aspect)) / normal_95,
+      .numerics = std::hypot(std::hypot(interpolation, softness_error(conditions.aspect)) / normal_95,
+                             table.multiplied_by().deviation),
       .tolerance = tolerance_deviation({slopes.width / (conditions.width * diameter), slopes.peak_speed}, tolerance),
       .model = model,
       .setting = table.factor_spread(kept_open_from)};
@@ -272,6 +272,7 @@ SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const Mod
   plan.layouts = search.layouts();
   plan.change = search.change();
   plan.amplitude_over_d = table.amplitude();
+  plan.table_times = std::exp(table.multiplied_by().log);
   plan.softness = softness_error(task.seed.aspect);
   plan.too_uncertain = std::erase_if(
       plan.layouts, [&](const PlannedLayout& layout) { return plan.unknown_to_table(layout) > most_uncertain; });

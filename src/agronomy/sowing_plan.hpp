@@ -21,6 +21,9 @@ struct PlannedSeed {
   bool has_larger() const { return largest > diameter * (1 + 1e-9); }
 };
 
+/// Mean volume of a lot's seeds in 3D, m3.
+double mean_volume(const SeedLot& lot);
+
 /// Of lots in 3D; of seeds of several sizes, and of a mixture by its number fractions, the mean by volume and mass;
 /// the aspect's by volume.
 PlannedSeed planned_seed(const std::vector<SeedLot>& lots);
@@ -110,6 +113,7 @@ struct SowingPlan {
   std::size_t too_uncertain = 0;       // more that should give the rate, left out: beyond `most_uncertain`
   NearestChange change;
   double amplitude_over_d = 0;  // of the tray, in the table
+  double table_times = 1;       // what the table's outflows were multiplied by (HoleTable::times)
   double softness = 0;          // what the softness of the table's seeds may do to the rate, over it
   /// Of a layout's rate, over it: what the table does not know of it, within the model. Chance and interpolation as
   /// independent, and softness.

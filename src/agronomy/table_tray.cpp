@@ -68,15 +68,11 @@ double bed_depth(const Vessel& tray, const PlannedSeed& seed) {
   return std::round(depth / told_depth) * told_depth;
 }
 
-double nearest(double value, const Span& known) {
-  return std::clamp(value, known.least, known.most);
-}
-
 HoleConditions nearest_place(HoleConditions at, const HoleTable& table) {
-  at.aspect = nearest(at.aspect, table.aspects());
-  at.width = nearest(at.width, table.widths(at.aspect));
-  at.peak_speed = nearest(at.peak_speed, table.peak_speeds(at.aspect));
-  at.depth = nearest(at.depth, table.depths(at.aspect));
+  at.aspect = table.aspects().nearest(at.aspect);
+  at.width = table.widths(at.aspect).nearest(at.width);
+  at.peak_speed = table.peak_speeds(at.aspect).nearest(at.peak_speed);
+  at.depth = table.depths(at.aspect).nearest(at.depth);
   return at;
 }
 
@@ -127,7 +123,7 @@ std::string outside_table(const char* key, double value, const Span& known, cons
 std::string outside_table(const HoleConditions& at, const HoleTable& table) {
   const Span aspects = table.aspects();
   std::string text = outside_table("seeds", at.aspect, aspects, "times as long as wide");
-  const double aspect = nearest(at.aspect, aspects);
+  const double aspect = aspects.nearest(at.aspect);
   const auto look = [&](const char* key, double value, const Span& known, const char* unit) {
     if (text.empty()) text = outside_table(key, value, known, unit);
   };
@@ -147,8 +143,8 @@ TrayTolerance tray_tolerance(const Scene& scene, const HoleTable& table, const B
   double sum = 0, by_width = 0, by_speed = 0;
   for (const Hole& hole : tray.holes) {
     HoleConditions own{seed.aspect, hole.width / seed.diameter, peak_speed(*motion, seed), 0};
-    const Span depths = table.depths(nearest(own.aspect, table.aspects()));
-    own.depth = tray.fill ? nearest(bed_depth(tray, seed), depths) : depths.most;
+    const Span depths = table.depths(table.aspects().nearest(own.aspect));
+    own.depth = tray.fill ? depths.nearest(bed_depth(tray, seed)) : depths.most;
     if (outside.empty()) outside = outside_table(own, table);
     const HoleConditions at = nearest_place(own, table);
     const HoleTable::Slopes slopes = table.slopes(at);

@@ -42,7 +42,7 @@ SettingPlace place_of(const TableTray& tray) {
 PredictionError common_error(const TableTray& tray, const HoleTable& table, const ModelError& model) {
   PredictionError error = table_error(table, tray.at, tray.seed.diameter, model);
   error.chance = 0;
-  error.numerics = softness_error(tray.at.aspect) / normal_95;
+  error.numerics = std::hypot(softness_error(tray.at.aspect) / normal_95, table.multiplied_by().deviation);
   return error;
 }
 

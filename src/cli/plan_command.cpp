@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -98,6 +99,56 @@ void check_counts(const PlanOptions& options) {
     if (std::find(options.crops.begin(), options.crops.begin() + static_cast<std::ptrdiff_t>(i), options.crops[i]) !=
         options.crops.begin() + static_cast<std::ptrdiff_t>(i))
       throw InputError(fmt::format("--crop: {} is given twice", options.crops[i]));
+}
+
+SeedContact seed_contact(const Contact& contact) {
+  return {contact.seed.friction, contact.wall.friction,
+          contact.rolling == Rolling::none ? 0 : contact.seed.rolling_friction, contact.seed.restitution};
+}
+
+/// Of a value that lies in a range in 95 % of cases.
+double deviation_in(const std::optional<std::array<double, 2>>& range, double (*scale)(double)) {
+  return range ? (scale((*range)[1]) - scale((*range)[0])) / (2 * normal_95) : 0;
+}
+
+/// The contact of a plan's seeds: mean over lots by volume, as of the aspect.
+struct MeanContact {
+  SeedContact contact{.restitution = 0};
+  SeedContactError error;
+};
+
+/// None where a crop names no contact model.
+std::optional<MeanContact> contact_of(const std::vector<PlannedLot>& lots) {
+  MeanContact mean;
+  double all = 0;
+  for (const PlannedLot& planned : lots) all += planned.sown.lot.number_fraction * mean_volume(planned.sown.lot);
+  for (const PlannedLot& planned : lots) {
+    const std::optional<CropContact> model = read_crop_contact(planned.crop, "--crop");
+    if (!model) return std::nullopt;
+    const SeedContact own = seed_contact(model->contact);
+    const double part = planned.sown.lot.number_fraction * mean_volume(planned.sown.lot) / all;
+    for (double SeedContact::*value : {&SeedContact::friction, &SeedContact::wall_friction,
+                                       &SeedContact::rolling_friction, &SeedContact::restitution})
+      mean.contact.*value += part * own.*value;
+    mean.error.log_friction = std::hypot(
+        mean.error.log_friction, part * deviation_in(model->reference.friction, [](double x) { return std::log(x); }));
+    mean.error.rolling_friction =
+        std::hypot(mean.error.rolling_friction,
+                   part * deviation_in(model->reference.rolling_friction, [](double x) { return x; }));
+  }
+  return mean;
+}
+
+/// The table of one hole for the seeds of a plan, with their contact in it.
+HoleTable table_of(PlanSource& source) {
+  const HoleTable table = shipped_hole_table();
+  const std::optional<MeanContact> mean = contact_of(source.lots);
+  if (!mean) return table;
+  const ContactSlopes slopes = shipped_contact_slopes();
+  const ContactFactor factor =
+      slopes.between(source.plan.task.seed.aspect, table.contact(), mean->contact, mean->error);
+  source.contact = {mean->contact, std::exp(factor.log), !slopes.holds(mean->contact)};
+  return table.times(factor);
 }
 
 PlanSource source_of(const PlanOptions& options) {
@@ -242,7 +293,7 @@ void answer(const PlanOptions& options, const PlanPage& page, const std::vector<
   if (!options.html.empty()) print("page: {}\n", options.html);
 }
 
-int run_weighed(PlanOptions options, const PlanSource& source) {
+int run_weighed(PlanOptions options, PlanSource source) {
   const SowingTask& task = source.plan.task;
   const std::string command = asked_again(options);
   options.layout = input_file(options.layout, FileKind::seeder).path.string();
@@ -269,7 +320,7 @@ int run_weighed(PlanOptions options, const PlanSource& source) {
         seed.mass * 1e6, seed.diameter * 1e3, seed.aspect, task.seed.mass * 1e6, task.seed.diameter * 1e3,
         task.seed.aspect));
   const int rows = rows_of(options);
-  const HoleTable table = shipped_hole_table();
+  const HoleTable table = table_of(source);
   const ModelError model = shipped_model_error();
   const WeighedPlan plan = plan_weighed(rows * task.row_mass_rate(), tray, weighed, table, model);
   PlanPage page{.source = source, .weighed = &plan, .command = command};
@@ -286,7 +337,7 @@ int run_weighed(PlanOptions options, const PlanSource& source) {
 int run_plan(const PlanOptions& options) {
   PlanSource source = source_of(options);
   if (!options.layout.empty()) return run_weighed(options, source);
-  const HoleTable table = shipped_hole_table();
+  const HoleTable table = table_of(source);
   const ModelError model = shipped_model_error();
   try {
     source.plan = plan_sowing(source.plan.task, table, model);

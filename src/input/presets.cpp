@@ -54,12 +54,20 @@ fs::path preset_file(const Table& table, const std::string& key, const std::stri
   return table.directory(key) / name;
 }
 
+std::array<double, 2> range_of(const Table& table, const std::string& key, const std::vector<double>& ends) {
+  if (ends.size() != 2 || ends[0] > ends[1]) table.fail(key, "is a range: [least, most]");
+  return {ends[0], ends[1]};
+}
+
 std::optional<std::array<double, 2>> read_range(Table& table, const std::string& key, Dimension dimension, double least,
                                                 double most) {
   if (!table.has(key)) return std::nullopt;
-  const std::vector<double> ends = table.quantities(key, dimension, least, most);
-  if (ends.size() != 2 || ends[0] > ends[1]) table.fail(key, "is a range: [least, most]");
-  return std::array{ends[0], ends[1]};
+  return range_of(table, key, table.quantities(key, dimension, least, most));
+}
+
+std::optional<std::array<double, 2>> read_range(Table& table, const std::string& key, double least, double most) {
+  if (!table.has(key)) return std::nullopt;
+  return range_of(table, key, table.numbers(key, least, most));
 }
 
 }  // namespace
@@ -106,6 +114,8 @@ Reference read_reference(Table& preset) {
   reference.true_density = table->quantity("true_density", Dimension::density, 1, 3e4);
   reference.bulk_density = read_range(*table, "bulk_density_range", Dimension::bulk_density, 1, 3e4);
   reference.angle_of_repose = read_range(*table, "angle_of_repose_range", Dimension::angle, 1 * degree, 89 * degree);
+  reference.friction = read_range(*table, "friction_range", 1e-3, 10);
+  reference.rolling_friction = read_range(*table, "rolling_friction_range", 0, 10);
   const std::vector<std::string> methods{"drained", "piled", "turning drum", "tilted box", "not said"};
   if (const auto method = table->choice("angle_of_repose_method", methods))
     reference.angle_of_repose_method = methods[*method];

@@ -31,6 +31,10 @@ constexpr std::array fields = {
     Field{"peak_speed", 1e-3, 1e3, [](HoleRecord& r, double value) { r.at.peak_speed = value; }},
     Field{"depth_over_d", 0.1, 1e3, [](HoleRecord& r, double value) { r.at.depth = value; }},
     Field{"amplitude_over_d", 1e-3, 1e3, [](HoleRecord& r, double value) { r.amplitude = value; }},
+    Field{"friction", 1e-3, 10, [](HoleRecord& r, double value) { r.contact.friction = value; }},
+    Field{"wall_friction", 0, 10, [](HoleRecord& r, double value) { r.contact.wall_friction = value; }},
+    Field{"rolling_friction", 0, 10, [](HoleRecord& r, double value) { r.contact.rolling_friction = value; }},
+    Field{"restitution", 0.01, 1, [](HoleRecord& r, double value) { r.contact.restitution = value; }},
     Field{"runs", 1, any, [](HoleRecord& r, double value) { r.runs = static_cast<int>(value); }},
     Field{"seeds", 1, any, [](HoleRecord& r, double value) { r.seeds = value; }},
     Field{"outflow", 1e-9, any, [](HoleRecord& r, double value) { r.outflow = value; }},
@@ -83,17 +87,39 @@ std::vector<HoleRecord> read_hole_records(const CsvLines& csv) {
   return records;
 }
 
-HoleTable read_hole_table(const CsvLines& csv) {
+namespace {
+
+/// What is made of the rows, which may not be enough for it.
+template <class Made>
+Made made_of(const CsvLines& csv) {
   try {
-    return HoleTable(read_hole_records(csv));
+    return Made(read_hole_records(csv));
   } catch (const std::invalid_argument& fault) {
     throw InputError(fmt::format("{}: {}", csv.file, fault.what()));
   }
 }
 
-HoleTable shipped_hole_table() {
+CsvLines shipped(const char* name) {
   SourceFiles files;
-  return read_hole_table(files.csv(data_directory() / "models" / "outflow" / "one-hole.csv"));
+  return files.csv(data_directory() / "models" / "outflow" / name);
+}
+
+}  // namespace
+
+HoleTable read_hole_table(const CsvLines& csv) {
+  return made_of<HoleTable>(csv);
+}
+
+ContactSlopes read_contact_slopes(const CsvLines& csv) {
+  return made_of<ContactSlopes>(csv);
+}
+
+HoleTable shipped_hole_table() {
+  return read_hole_table(shipped("one-hole.csv"));
+}
+
+ContactSlopes shipped_contact_slopes() {
+  return read_contact_slopes(shipped("one-hole-contacts.csv"));
 }
 
 }  // namespace vibrosow

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "agronomy/contact_slopes.hpp"
 #include "agronomy/hole_table.hpp"
 #include "input/csv_lines.hpp"
 
@@ -14,7 +15,11 @@ std::vector<HoleRecord> read_hole_records(const CsvLines& csv);
 /// The table of one hole, of such rows. Throws InputError "FILE: .." where they make none.
 HoleTable read_hole_table(const CsvLines& csv);
 
-/// The shipped one. Throws InputError where it is not there.
+/// What other contacts change, of such rows. Throws InputError "FILE: .." where they do not tell.
+ContactSlopes read_contact_slopes(const CsvLines& csv);
+
+/// The shipped ones. Throw InputError where they are not there.
 HoleTable shipped_hole_table();
+ContactSlopes shipped_contact_slopes();
 
 }  // namespace vibrosow

@@ -150,6 +150,9 @@ std::string contact_toml(const NewCrop& crop, const CropEstimate& estimate) {
            "wall");
   keys.add("restitution", "0.5", "assumed: as seed on seed", "wall");
   keys.add("rolling_friction", number(band.fitting.rolling_friction), "assumed: as seed on seed", "wall");
+  const auto range = [&](const ParameterBand& of) { return fmt::format("[{}, {}]", number(of.low), number(of.high)); };
+  keys.add("friction_range", range(band.friction), "95 %, as friction", "reference");
+  keys.add("rolling_friction_range", range(band.rolling_friction), "95 %, as rolling friction", "reference");
   std::string comment = "Made by vibrosow new-crop.";
   for (const std::string& doubt : estimate.doubts) comment += "\n# Doubtful: " + doubt;
   return keys.text(comment, crop.name + " on itself and on a tray");

@@ -104,6 +104,10 @@ Columns<PlannedLayoutRow> plan_columns() {
                  "of the counts of a hole: variance over mean, 1 for seeds that come at random; the largest "
                  "of the places around",
                  [](R r) { return r.layout->estimate.dispersion; }),
+             quantity_column<PlannedLayoutRow>(
+                 "contact_times", plain,
+                 "what the table's outflow was multiplied by for the crop's own contact; 1 of one that names none",
+                 [](R r) { return r.plan->table_times; }),
              text_column<PlannedLayoutRow>("measured", "whether anything of it was ever measured",
                                            [](R) { return std::string("no"); }),
          });
@@ -320,15 +324,28 @@ std::string mixture_doubt(const PlanSource& source) {
          "by the largest crop.";
 }
 
-std::string trust_text(const SowingPlan& plan) {
+std::string contact_text(const PlanSource& source) {
+  if (!source.contact) return "The crop names no contact model, so what its own friction does is not in it.";
+  const PlannedContact& contact = *source.contact;
+  return fmt::format(
+      "For the crop's own contact (friction {:.2g}, on the tray {:.2g}, rolling {:.2g}, restitution {:.2g}) the rates "
+      "are taken {} times, by runs with other contacts{}.",
+      contact.seed.friction, contact.seed.wall_friction, contact.seed.rolling_friction, contact.seed.restitution,
+      to_digits(contact.times, 3), contact.is_beyond ? ": the nearest of them, as it lies beyond them" : "");
+}
+
+std::string trust_text(const PlanSource& source) {
+  const SowingPlan& plan = source.plan;
   return (plan.layouts.empty() ? "How sure: " : certainty_text(plan)) +
          fmt::format(
              "Nothing of this was ever measured. It is simulated: one round hole in a level tray that is shaken along "
              "its floor by {:g} seeds to each side, friction {:g} ({:g} on the tray), restitution {:g}, dry seeds of "
-             "one size, without straw or dust. Even drill charts miss the real rate by 25 to 50 % (MSU P3112): weigh "
+             "one size, without straw or dust. {} Even drill charts miss the real rate by 25 to 50 % (MSU P3112): "
+             "weigh "
              "what comes "
              "in a minute before sowing, and ask again with --layout and --weighed.",
-             plan.amplitude_over_d, table_model.friction, table_model.wall_friction, table_model.restitution);
+             plan.amplitude_over_d, table_model.friction, table_model.wall_friction, table_model.restitution,
+             contact_text(source));
 }
 
 // The seeder.
@@ -341,11 +358,16 @@ std::string in_millimetres(double length) {
 /// A lot: the crop by name, or written out where its seeds were made heavier or lighter.
 std::string lot_text(const PlannedLot& planned, const std::string& name) {
   const bool is_file = has_extension(planned.crop, ".toml");
-  const std::string crop = is_file ? std::filesystem::absolute(planned.crop).lexically_normal().string() : planned.crop;
+  const auto whole_path = [](const std::string& file) {
+    return std::filesystem::absolute(file).lexically_normal().string();
+  };
+  const std::string crop = is_file ? whole_path(planned.crop) : planned.crop;
   const SeedLot& lot = planned.sown.lot;
   std::string text = fmt::format("[seeds.{}]\n", name);
   if (!planned.crop_mass) return text + fmt::format("crop = {}\n", toml_text({crop}));
   text += fmt::format("mass = \"{:.6g} mg\"\n", lot.mass / milligram);
+  if (lot.contact.is_known())
+    text += fmt::format("contact = {}\n", toml_text({is_file ? whole_path(lot.contact.file) : lot.contact.name}));
   if (lot.shape == Shape::ball)
     return text + fmt::format("shape = \"ball\"\ndiameter = {}\n", in_millimetres(lot.diameter));
   text += "shape = \"discs\"\ndiscs = [\n";
@@ -472,7 +494,7 @@ std::string risk_sentence(const SowingPlan& plan) {
 std::vector<std::string> trust_sentences(const PlanSource& source) {
   std::vector<std::string> sentences;
   if (const std::string doubt = mixture_doubt(source); !doubt.empty()) sentences.push_back(doubt);
-  sentences.push_back(trust_text(source.plan));
+  sentences.push_back(trust_text(source));
   return sentences;
 }
 
@@ -549,17 +571,22 @@ std::string planned_seeder(const PlanSource& source) {
   const HolesForRows& feed = best.feed;
   std::string text = fmt::format(
       "# The best layout of a plan, {}, in an endless tray. It should give {} seeds/s;\n"
-      "# nothing of it was ever measured. Contacts are those of the table that the plan was looked up in.\n"
+      "# nothing of it was ever measured. {}\n"
       "title = {}\nspace = \"3d\"\n\n",
       feed_text(feed), to_digits(plan.task.row_seed_rate() * feed.rows, 3),
+      source.contact ? "Contacts are the crops' own, as soft as in the table that the plan was looked up in."
+                     : "Contacts are those of the table that the plan was looked up in.",
       toml_text(
           {fmt::format("{}, {} kg/ha", feed_text(feed), to_digits(plan.task.sowing_rate / kilogram_per_hectare, 3))}));
   text += lots_text(source);
-  text += fmt::format(
-      "\n[contact]\nlaw = \"elastic-shell\"\nshell_compression = {:g}\nfriction = {:g}\nrestitution = {:g}\n"
-      "friction_model = \"spring\"\nwall = {{ friction = {:g}, restitution = {:g} }}\n",
-      table_model.shell_compression, table_model.friction, table_model.restitution, table_model.wall_friction,
-      table_model.restitution);
+  if (source.contact)
+    text += fmt::format("\n[contact]\nshell_compression = {:g}\n", table_model.shell_compression);
+  else
+    text += fmt::format(
+        "\n[contact]\nlaw = \"elastic-shell\"\nshell_compression = {:g}\nfriction = {:g}\nrestitution = {:g}\n"
+        "friction_model = \"spring\"\nwall = {{ friction = {:g}, restitution = {:g} }}\n",
+        table_model.shell_compression, table_model.friction, table_model.restitution, table_model.wall_friction,
+        table_model.restitution);
   text += fmt::format(
       "\n[tray]\nlength = {3}\ndepth = {0}\nheight = {1}\nsides = \"periodic\"\nfront_and_back = \"periodic\"\n"
       "fill = {{ count = {2:.0f}, packing = \"poured\", keep = true }}\n",

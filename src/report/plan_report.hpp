@@ -18,13 +18,21 @@ struct PlannedLot {
   std::optional<double> crop_mass{};  // kg, of a seed of the crop, where another was given beside it
 };
 
+/// What the table's outflows were multiplied by for the contact of the seeds.
+struct PlannedContact {
+  SeedContact seed;
+  double times = 1;
+  bool is_beyond = false;  // of no contact that was tried: the nearest of these was taken
+};
+
 /// A plan and what was asked for, as far as a reader is told of it.
 struct PlanSource {
   SowingPlan plan;
-  std::vector<PlannedLot> lots;           // several: a mixture
-  std::optional<double> plants{};         // 1/m2, where the rate was asked for by plants
-  std::optional<double> establishment{};  // fraction, then
-  std::optional<int> rows{};              // of the drill
+  std::optional<PlannedContact> contact{};  // none: the crop names no contact model
+  std::vector<PlannedLot> lots;             // several: a mixture
+  std::optional<double> plants{};           // 1/m2, where the rate was asked for by plants
+  std::optional<double> establishment{};    // fraction, then
+  std::optional<int> rows{};                // of the drill
 };
 
 /// The need, the risk of clogging, the best layouts and how far to trust them; for a terminal.

@@ -18,9 +18,8 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 const std::string header =
-    "aspect,width_over_d,peak_speed,depth_over_d,amplitude_over_d,runs,seeds,outflow,outflow_ci95,dispersion,longest_"
-    "pause,stood_"
-    "still,watched\n";
+    "aspect,width_over_d,peak_speed,depth_over_d,amplitude_over_d,friction,wall_friction,rolling_friction,restitution,"
+    "runs,seeds,outflow,outflow_ci95,dispersion,longest_pause,stood_still,watched\n";
 
 /// Eight rows: two widths, speeds and depths.
 std::string rows() {
@@ -28,7 +27,8 @@ std::string rows() {
   for (const char* width : {"2", "3"})
     for (const char* speed : {"0.7", "1.4"})
       for (const char* depth : {"3", "6"})
-        text += std::string("1,") + width + ',' + speed + ',' + depth + ",2,3,300," + width + ",0.1,,4,0,400\n";
+        text += std::string("1,") + width + ',' + speed + ',' + depth + ",2,0.45,0.35,0,0.5,3,300," + width +
+                ",0.1,,4,0,400\n";
   return text;
 }
 
@@ -46,6 +46,7 @@ TEST(ReadHoleTable, ReadsEveryColumn) {
   EXPECT_EQ(first.at.width, 2);
   EXPECT_EQ(first.at.peak_speed, 0.7);
   EXPECT_EQ(first.at.depth, 3);
+  EXPECT_EQ(first.contact, (SeedContact{0.45, 0.35, 0, 0.5}));
   EXPECT_EQ(first.runs, 3);
   EXPECT_EQ(first.seeds, 300);
   EXPECT_EQ(first.half_width_95, 0.1);
@@ -58,12 +59,16 @@ TEST(ReadHoleTable, NamesFileLineAndColumn) {
   EXPECT_THAT([] { read("aspect,width\n1,2\n"); }, refused("table.csv:1: width: unknown column"));
   EXPECT_THAT([] { read("aspect\n1\n"); }, refused("table.csv:1: width_over_d: is missing"));
   EXPECT_THAT([] { read("aspect,aspect\n1,1\n"); }, refused("table.csv:1: aspect: stands twice"));
-  EXPECT_THAT([] { read(header + "1,2,x,3,2,3,300,2,0.1,,4,0,400\n"); },
+  EXPECT_THAT([] { read(header + "1,2,x,3,2,0.45,0.35,0,0.5,3,300,2,0.1,,4,0,400\n"); },
               refused("table.csv:2: peak_speed: \"x\" is not a number"));
-  EXPECT_THAT([] { read(header + "1,2,1,3,2,3,300,2,0.1,,4,1.5,400\n"); },
+  EXPECT_THAT([] { read(header + "1,2,1,3,2,0.45,0.35,0,0.5,3,300,2,0.1,,4,1.5,400\n"); },
               refused("table.csv:2: stood_still: 1.5 is not from 0 to 1"));
-  EXPECT_THAT([] { read(header + rows() + "1,4,1.4,3,2,3,300,2,0.1,,4,0,400\n"); },
+  EXPECT_THAT([] { read(header + rows() + "1,4,1.4,3,2,0.45,0.35,0,0.5,3,300,2,0.1,,4,0,400\n"); },
               refused("table.csv: of aspect 1 there are 9 of the 12"));
+  EXPECT_THAT([] { read(header + rows() + "1,4,1.4,3,2,0.4,0.35,0,0.5,3,300,2,0.1,,4,0,400\n"); },
+              refused("table.csv: the contacts differ"));
+  EXPECT_THAT([] { read_contact_slopes(parse_csv_lines(header + rows(), "table.csv")); },
+              refused("table.csv: the runs of aspect 1 do not determine what each part of a contact does"));
 }
 
 TEST(ShippedHoleTable, IsWholeAndItsOutflowGrowsWithTheWidth) {

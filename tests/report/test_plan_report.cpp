@@ -77,6 +77,17 @@ TEST(PlanText, AMassFarFromTheCropsIsDoubted) {
   EXPECT_THAT(needs(), Not(HasSubstr("doubtful")));
 }
 
+TEST(PlanText, SaysWhatTheContactDoes) {
+  PlanSource source = source_of(100);
+  EXPECT_THAT(unwrapped(plan_text(source)), HasSubstr("The crop names no contact model"));
+  source.contact = {{0.2, 0.3, 0.01, 0.5}, 1.14, false};
+  EXPECT_THAT(unwrapped(plan_text(source)),
+              HasSubstr("For the crop's own contact (friction 0.2, on the tray 0.3, rolling 0.01, restitution 0.5) the "
+                        "rates are taken 1.14 times, by runs with other contacts."));
+  source.contact->is_beyond = true;
+  EXPECT_THAT(unwrapped(plan_text(source)), HasSubstr("the nearest of them, as it lies beyond them"));
+}
+
 TEST(PlanText, NoneOfTheseDoes) {
   EXPECT_THAT(unwrapped(plan_text(source_of(0.5))), HasSubstr("None of these does: the least"));
   const std::string most = unwrapped(plan_text(source_of(1e5)));
@@ -129,6 +140,23 @@ TEST(PlannedSeeder, IsThatOfTheTableWithTheLayoutsHole) {
   EXPECT_NEAR(motion.frequency, best.frequency, 1e-4);
   EXPECT_NEAR(motion.amplitude, best.amplitude, 1e-9);
   EXPECT_NEAR(scene.lots[0].mass, 40e-6, 1e-12);
+}
+
+TEST(PlannedSeeder, OfACropThatNamesItsContactHasIt) {
+  PlanSource source = source_of(100);
+  source.lots.front().crop = "pea";
+  source.lots.front().sown.lot = read_crop_lot("pea", "--crop");
+  source.lots.front().crop_mass.reset();
+  source.contact = {{0.2, 0.3, 0.01, 0.5}, 1.14, false};
+  const Scene scene = planned_scene(source), of_table = read_scene(data_directory() / "seeders" / "one-hole.toml");
+  Contact own = read_crop_contact("pea", "--crop")->contact;
+  own.shell_compression = of_table.contact.shell_compression;
+  EXPECT_EQ(scene.contact.seed, own.seed);
+  EXPECT_EQ(scene.contact.wall, own.wall);
+  EXPECT_EQ(scene.contact.shell_compression, own.shell_compression);
+  EXPECT_EQ(scene.contact.rolling, Rolling::spring);
+  source.lots.front().crop_mass = 200e-6;  // so that the lot is written out
+  EXPECT_EQ(planned_scene(source).contact.seed, own.seed);
 }
 
 /// What a plan has written can be weighed: it is read back as the tray that was planned, also at the table's ends.
