@@ -82,30 +82,35 @@ ContactSlopes::Values ContactSlopes::nearest(const SeedContact& contact) const {
   return terms;
 }
 
-ContactFactor ContactSlopes::factor(const Fit& fit, const Values& change, const SeedContactError& error) {
-  ContactFactor factor;
-  double variance =
-      std::pow(fit.slopes[0] * error.log_friction, 2) + std::pow(fit.slopes[2] * error.rolling_friction, 2);
+/// Of a shape between two, whose fits err independently of each other.
+ContactSlopes::Fit ContactSlopes::at(double aspect) const {
+  const auto above = std::ranges::lower_bound(fits_, aspect, {}, &Fit::aspect);
+  if (above == fits_.begin()) return fits_.front();
+  if (above == fits_.end()) return fits_.back();
+  const Fit& below = *(above - 1);
+  const double way = (aspect - below.aspect) / (above->aspect - below.aspect);
+  Fit fit{.aspect = aspect};
   for (std::size_t k = 0; k < count; ++k) {
-    factor.log += fit.slopes[k] * change[k];
-    for (std::size_t l = 0; l < count; ++l) variance += change[k] * fit.covariance[k][l] * change[l];
+    fit.slopes[k] = std::lerp(below.slopes[k], above->slopes[k], way);
+    for (std::size_t l = 0; l < count; ++l)
+      fit.covariance[k][l] = (1 - way) * (1 - way) * below.covariance[k][l] + way * way * above->covariance[k][l];
   }
-  factor.deviation = std::sqrt(std::max(0.0, variance));
-  return factor;
+  return fit;
 }
 
 ContactFactor ContactSlopes::between(double aspect, const SeedContact& from, const SeedContact& to,
                                      const SeedContactError& error) const {
+  const Fit fit = at(aspect);
   const Values before = nearest(from), after = nearest(to);
-  Values change{};
-  for (std::size_t k = 0; k < count; ++k) change[k] = after[k] - before[k];
-  const auto above = std::ranges::lower_bound(fits_, aspect, {}, &Fit::aspect);
-  if (above == fits_.begin()) return factor(fits_.front(), change, error);
-  if (above == fits_.end()) return factor(fits_.back(), change, error);
-  const Fit& below = *(above - 1);
-  const double way = (aspect - below.aspect) / (above->aspect - below.aspect);
-  const ContactFactor one = factor(below, change, error), other = factor(*above, change, error);
-  return {(1 - way) * one.log + way * other.log, std::hypot((1 - way) * one.deviation, way * other.deviation)};
+  const Values unknown{error.log_friction, 0, error.rolling_friction, 0};  // of the terms
+  double log = 0, variance = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    log += fit.slopes[k] * (after[k] - before[k]);
+    variance += std::pow(fit.slopes[k] * unknown[k], 2);
+    for (std::size_t l = 0; l < count; ++l)
+      variance += (after[k] - before[k]) * fit.covariance[k][l] * (after[l] - before[l]);
+  }
+  return {log, std::sqrt(std::max(0.0, variance))};
 }
 
 }  // namespace vibrosow

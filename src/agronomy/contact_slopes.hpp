@@ -13,14 +13,14 @@ namespace vibrosow {
 /// + e restitution. Between two shapes a to e are linear in the aspect, and beyond the last those of the last.
 class ContactSlopes {
  public:
-  /// Throws std::invalid_argument for a shape whose records do not tell all slopes, and without records.
+  /// Throws std::invalid_argument for a shape whose records do not determine all slopes, and without records.
   explicit ContactSlopes(const std::vector<HoleRecord>& records);
 
   /// From one contact to another. Beyond the contacts of the records the nearest of them are taken.
   /// `error`: of `to`, its parts being independent.
   ContactFactor between(double aspect, const SeedContact& from, const SeedContact& to,
                         const SeedContactError& error = {}) const;
-  /// Contacts of the records: whether one lies beyond them.
+  /// Whether a contact lies within those of the records, part by part.
   bool holds(const SeedContact& contact) const;
 
  private:
@@ -35,9 +35,9 @@ class ContactSlopes {
   static Fit fitted(double aspect, const std::vector<const HoleRecord*>& records);
   static Values terms_of(const SeedContact& contact);
   Values nearest(const SeedContact& contact) const;
-  static ContactFactor factor(const Fit& fit, const Values& change, const SeedContactError& error);
+  Fit at(double aspect) const;
 
-  std::vector<Fit> fits_;  // by aspect, ascending
+  std::vector<Fit> fits_;          // by aspect, ascending
   std::array<Span, count> known_;  // of the terms
 };
 

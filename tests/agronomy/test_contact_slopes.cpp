@@ -98,6 +98,13 @@ TEST(ContactSlopes, ErrByWhatIsNotKnownOfTheContact) {
   EXPECT_NEAR(slopes.between(1, usual, usual, {0.5, 0.1}).deviation, std::hypot(0.2 * 0.5, 0.7 * 0.1), 1e-9);
 }
 
+/// A friction that is not known is the same for both shapes, so its parts add up.
+TEST(ContactSlopes, BetweenShapesErrByOneContact) {
+  std::vector<HoleRecord> records = records_of(1, -0.2, 0);
+  for (const HoleRecord& record : records_of(3, -0.4, 0)) records.push_back(record);
+  EXPECT_NEAR(ContactSlopes(records).between(2, usual, usual, {0.5, 0}).deviation, 0.3 * 0.5, 1e-9);
+}
+
 TEST(ContactSlopes, AreNotTakenFromTooFewRuns) {
   EXPECT_THROW(ContactSlopes({}), std::invalid_argument);
   std::vector<HoleRecord> records = records_of(1, -0.2, -0.7);
