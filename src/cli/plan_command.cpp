@@ -147,7 +147,7 @@ HoleTable table_of(PlanSource& source) {
   const ContactSlopes slopes = shipped_contact_slopes();
   const ContactFactor factor =
       slopes.between(source.plan.task.seed.aspect, table.contact(), mean->contact, mean->error);
-  source.contact = {mean->contact, std::exp(factor.log), !slopes.holds(mean->contact)};
+  source.contact = {mean->contact, !slopes.holds(mean->contact)};
   return table.times(factor);
 }
 

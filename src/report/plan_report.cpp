@@ -331,7 +331,7 @@ std::string contact_text(const PlanSource& source) {
       "For the crop's own contact (friction {:.2g}, on the tray {:.2g}, rolling {:.2g}, restitution {:.2g}) the rates "
       "are taken {} times, by runs with other contacts{}.",
       contact.seed.friction, contact.seed.wall_friction, contact.seed.rolling_friction, contact.seed.restitution,
-      to_digits(contact.times, 3), contact.is_beyond ? ": the nearest of them, as it lies beyond them" : "");
+      to_digits(source.plan.table_times, 3), contact.is_beyond ? ": the nearest of them, as it lies beyond them" : "");
 }
 
 std::string trust_text(const PlanSource& source) {

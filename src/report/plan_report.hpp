@@ -18,10 +18,9 @@ struct PlannedLot {
   std::optional<double> crop_mass{};  // kg, of a seed of the crop, where another was given beside it
 };
 
-/// What the table's outflows were multiplied by for the contact of the seeds.
+/// The contact of the seeds, for which the table's outflows were multiplied (SowingPlan::table_times).
 struct PlannedContact {
   SeedContact seed;
-  double times = 1;
   bool is_beyond = false;  // of no contact that was tried: the nearest of these was taken
 };
 

@@ -80,7 +80,8 @@ TEST(PlanText, AMassFarFromTheCropsIsDoubted) {
 TEST(PlanText, SaysWhatTheContactDoes) {
   PlanSource source = source_of(100);
   EXPECT_THAT(unwrapped(plan_text(source)), HasSubstr("The crop names no contact model"));
-  source.contact = {{0.2, 0.3, 0.01, 0.5}, 1.14, false};
+  source.contact = {{0.2, 0.3, 0.01, 0.5}, false};
+  source.plan.table_times = 1.14;
   EXPECT_THAT(unwrapped(plan_text(source)),
               HasSubstr("For the crop's own contact (friction 0.2, on the tray 0.3, rolling 0.01, restitution 0.5) the "
                         "rates are taken 1.14 times, by runs with other contacts."));
@@ -147,7 +148,7 @@ TEST(PlannedSeeder, OfACropThatNamesItsContactHasIt) {
   source.lots.front().crop = "pea";
   source.lots.front().sown.lot = read_crop_lot("pea", "--crop");
   source.lots.front().crop_mass.reset();
-  source.contact = {{0.2, 0.3, 0.01, 0.5}, 1.14, false};
+  source.contact = {{0.2, 0.3, 0.01, 0.5}, false};
   const Scene scene = planned_scene(source), of_table = read_scene(data_directory() / "seeders" / "one-hole.toml");
   Contact own = read_crop_contact("pea", "--crop")->contact;
   own.shell_compression = of_table.contact.shell_compression;
